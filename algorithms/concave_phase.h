@@ -67,6 +67,9 @@ struct ConcaveEntry {
   std::vector<Precision> scalars;
   // True for the pairs of bodies that it supports; null means all. Others are `unsupported`.
   bool (*supports)(const ConcaveBody& a, const ConcaveBody& b) = nullptr;
+  // True if it finds pairs of parts of two meshes with ConcaveSettings::mid_phase, so that its times
+  // depend on that.
+  bool takes_mid_phase = false;
   // True if it is wrong where its doubles are: its answers are no promise.
   bool approximate = false;
   // Null if it is not built.

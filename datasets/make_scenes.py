@@ -95,7 +95,8 @@ def body(shape, at, turn=(1, 0, 0, 0), velocity=(0, 0, 0), spin=(0, 0, 0), movin
 def write_scene(name, words, bodies, shapes=()):
     with open(HERE / f"{name}.toml", "w", encoding="utf-8", newline="\n") as file:
         file.write("".join(f"# {line}\n" for line in words + ["Made by make_scenes.py."]))
-        file.write(f'name = "{name}"\nframes = {FRAMES}\ntime_step = {STEP!r}\n\n')
+        meshes = 'meshes = "hull"\n' if any("mesh = " in body for body in bodies) else ""
+        file.write(f'name = "{name}"\n{meshes}frames = {FRAMES}\ntime_step = {STEP!r}\n\n')
         file.write("body = [\n" + "".join(bodies) + "]\n")
         for key, vertices in shapes:
             rows = ", ".join(vector(v) for v in vertices)

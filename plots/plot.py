@@ -5,6 +5,7 @@ import sys
 import agreement
 import broad
 import common
+import concave
 import narrow
 import phases
 import speed_up
@@ -17,6 +18,7 @@ FIGURES = {
     "time_against_count": time_against_count.draw,
     "broad": broad.draw,
     "narrow": narrow.draw,
+    "concave": concave.draw,
     "speed_up": speed_up.draw,
     "phases": phases.draw,
     "winners": winners.draw,

@@ -104,8 +104,9 @@ void narrow(benchmark::State& state, int threads) {
   std::vector<std::vector<IndexPair>> pairs;
   for (const measure::BlockFrame& frame : stage.input.frames) pairs.push_back(frame.truth);
   constexpr Task task = Task::intersect;
+  constexpr record::QueryTask asked = record::query_task(task);
   const std::vector<measure::NarrowSet> sets =
-      measure::narrow_sets(stage.input, "", pairs, {&task, 1});
+      measure::narrow_sets(stage.input, "", pairs, {&asked, 1});
   const auto spheres = std::ranges::find_if(sets, [](const measure::NarrowSet& set) {
     return set.kind_a == ShapeKind::sphere && set.kind_b == ShapeKind::sphere;
   });

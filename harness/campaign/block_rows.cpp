@@ -74,6 +74,7 @@ std::vector<record::RawRow> BlockRows::of_reply(const measure::Round& round,
   row.pair_hash = base::to_hex(reply.pair_hash);
   row.contact_count = reply.contacts;
   row.outcome_hash = base::to_hex(reply.outcome_hash);
+  row.part_pairs = reply.part_pairs;
   row.iterations = reply.iterations;
   row.support_calls = reply.support_calls;
   const bool is_ours = schedule_.candidates[sample.contestant].info().origin == Origin::ours;

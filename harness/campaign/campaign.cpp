@@ -25,7 +25,9 @@ bool is_about(const CampaignRule& rule, const CampaignCell& cell) {
     return !wanted || *wanted == value;
   };
   return (!rule.broad || (!narrow && *rule.broad == cell.broad)) &&
-         names(rule.narrow, cell.narrow) && (!rule.scene || is_called(cell.scene, *rule.scene)) &&
+         (!rule.narrow || names(rule.narrow, cell.narrow) ||
+          cell.narrow.starts_with(*rule.narrow + " ")) &&
+         (!rule.scene || is_called(cell.scene, *rule.scene)) &&
          (!rule.scalar || rule.scalar == cell.scalar) && (!rule.task || rule.task == cell.task) &&
          names(rule.pair_kind, cell.pair_kind) && names(rule.boxes, cell.boxes) &&
          names(rule.threads, cell.threads) && (!rule.warm || rule.warm == cell.warm) &&
@@ -65,6 +67,13 @@ bool CampaignGroup::admits(const CampaignCell& cell) const {
          std::ranges::none_of(exclude, about);
 }
 
+std::vector<const measure::NarrowChoice*> CampaignGroup::choices() const {
+  std::vector<const measure::NarrowChoice*> all;
+  for (const measure::NarrowChoice& choice : narrow) all.push_back(&choice);
+  for (const measure::NarrowChoice& choice : concave) all.push_back(&choice);
+  return all;
+}
+
 std::string description(const Campaign& campaign) {
   std::string text = fmt::format("{} seed {}\n", campaign.name, campaign.seed);
   for (const CampaignGroup& group : campaign.groups) {
@@ -91,7 +100,11 @@ std::string description(const Campaign& campaign) {
       if (choice.warm) text += " warm";
       if (choice.batch != measure::usual_batch) text += fmt::format(" by {}", choice.batch);
     }
-    for (const Task task : group.tasks) text += fmt::format(" task {}", to_string(task));
+    for (const measure::NarrowChoice& choice : group.concave) {
+      text += fmt::format(" concave {} {}", choice.name(), to_string(choice.settings.scalar));
+    }
+    for (const record::QueryTask task : group.tasks)
+      text += fmt::format(" task {}", to_string(task));
     for (const CampaignRule& rule : group.include) text += " include " + describe(rule);
     for (const CampaignRule& rule : group.exclude) text += " exclude " + describe(rule);
     text += fmt::format(" time_limit {} memory_limit {} width {} seconds {} squares {}",

@@ -25,10 +25,12 @@ enum class Pairing : std::uint8_t {
 
 // A rule applies to the cells that match every criterion it has.
 struct CampaignRule {
-  std::optional<std::string> broad, narrow;  // a rule with one of them matches no cell of the other
-  std::optional<std::string> scene;          // a scene's name, with or without the gap
+  // A rule with one of them matches no cell of the other. A concave phase is a narrow one here, with
+  // or without the name of its mid-phase.
+  std::optional<std::string> broad, narrow;
+  std::optional<std::string> scene;  // a scene's name, with or without the gap
   std::optional<Precision> scalar;
-  std::optional<Task> task;
+  std::optional<record::QueryTask> task;
   std::optional<std::string> pair_kind;  // "box-sphere"
   std::optional<scene::BoxKind> boxes;
   std::optional<int> threads;
@@ -46,7 +48,7 @@ struct CampaignCell {
   int threads = 1;
   std::string broad, narrow;
   std::optional<Precision> scalar;
-  std::optional<Task> task;
+  std::optional<record::QueryTask> task;
   std::string pair_kind;
   std::optional<bool> warm = {};
   std::optional<int> batch = {};
@@ -68,7 +70,8 @@ struct CampaignGroup {
   std::vector<const BroadPhaseEntry*> broad;
   bool limit = false;  // true if the lower bound (algorithms/limit.h) is measured too
   std::vector<measure::NarrowChoice> narrow;
-  std::vector<Task> tasks = {Task::intersect};
+  std::vector<measure::NarrowChoice> concave;  // for pairs with a body that is not convex
+  std::vector<record::QueryTask> tasks = {record::QueryTask::intersect};
   Pairing pairing = Pairing::separate;
   std::vector<CampaignRule> include, exclude;
   // The limit for one frame, seconds; a slower algorithm is left out of the block.
@@ -83,6 +86,8 @@ struct CampaignGroup {
   int processes = 3;          // the number for each contestant before the intervals are looked at
 
   bool admits(const CampaignCell& cell) const;
+  // The narrow phases, then the concave phases.
+  std::vector<const measure::NarrowChoice*> choices() const;
 };
 
 struct Campaign {

@@ -60,10 +60,10 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
     for (const std::string& source : broad) {
       for (const measure::NarrowSet& set : sets) {
         std::vector<std::string> narrow;
-        for (const measure::NarrowChoice& choice : group.narrow) {
-          if (offers(*choice.entry, set.kind_a, set.kind_b, set.task) &&
-              context.admits(choice, source, set.task, set.kind_name())) {
-            narrow.push_back(Candidate{.broad = nullptr, .narrow = &choice}.label());
+        for (const measure::NarrowChoice* choice : group.choices()) {
+          if (offer(*choice, set, input) == measure::Offer::taken &&
+              context.admits(*choice, source, set.task, set.kind_name())) {
+            narrow.push_back(Candidate{.broad = nullptr, .narrow = choice}.label());
           }
         }
         add(fmt::format("{} {}{}{}", to_string(set.task), set.kind_name(),

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::array<std::string_view, 2> box_names = {"tight", "loose"};
 constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
-constexpr std::array<std::string_view, 4> task_names = {"intersect", "distance", "penetration",
-                                                        "signed"};
+constexpr std::array<std::string_view, 5> task_names = {"intersect", "distance", "penetration",
+                                                        "signed", "contacts"};
 constexpr std::array<std::string_view, 3> isa_names = {"all", "avx2", "baseline"};
 enum class IsaChoice : std::uint8_t { all, avx2, baseline };
 constexpr std::array<std::string_view, 2> pairing_names = {"separate", "product"};
@@ -71,10 +71,11 @@ class Settings {
 
 template <class Entry>
 std::vector<const Entry*> algorithms(Settings& settings, const std::string& key,
-                                     std::span<const Entry> entries) {
-  const std::vector<std::string> names = settings.texts(key, {"ours", "peers"});
+                                     std::span<const Entry> entries,
+                                     const std::vector<std::string>& usual = {"ours", "peers"}) {
+  const std::vector<std::string> names = settings.texts(key, usual);
   try {
-    return select(entries, names, key + " phase");
+    return select(entries, names, key == "mid_phases" ? "mid-phase" : key + " phase");
   } catch (const base::InputError& error) {
     settings.of(key).fail(key, error.what());
   }
@@ -162,6 +163,16 @@ std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
   return choices;
 }
 
+// Returns each concave phase with each of its scalars, and those that take any mid-phase with each.
+std::vector<measure::NarrowChoice> concave_choices(Settings& settings) {
+  const auto scalars = settings.choices<Precision>("scalars", scalar_names,
+                                                   {Precision::float32, Precision::float64});
+  return measure::concave_choices(
+      algorithms(settings, "concave", concave_phases()),
+      algorithms(settings, "mid_phases", mid_phases(), {std::string(measure::usual_mid_phase)}),
+      scalars);
+}
+
 std::vector<CampaignRule> rules(Settings& settings, const std::string& key) {
   std::vector<CampaignRule> rules;
   files::TomlTable& holder = settings.of(key);
@@ -198,7 +209,8 @@ std::vector<CampaignRule> rules(Settings& settings, const std::string& key) {
     if (rule.broad && find_broad_phase(*rule.broad) == nullptr) {
       table.fail("broad", "no broad phase is called '" + *rule.broad + "'");
     }
-    if (rule.narrow && find_narrow_phase(*rule.narrow) == nullptr) {
+    if (rule.narrow && find_narrow_phase(*rule.narrow) == nullptr &&
+        find_concave_phase(rule.narrow->substr(0, rule.narrow->find(' '))) == nullptr) {
       table.fail("narrow", "no narrow phase is called '" + *rule.narrow + "'");
     }
     table.finish();
@@ -242,7 +254,9 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
   group.broad = algorithms(settings, "broad", broad_phases());
   group.limit = settings.of("limit").boolean("limit", false);
   group.narrow = narrow_choices(settings);
-  group.tasks = settings.choices<Task>("tasks", task_names, {Task::intersect});
+  group.concave = concave_choices(settings);
+  group.tasks =
+      settings.choices<record::QueryTask>("tasks", task_names, {record::QueryTask::intersect});
   group.pairing = static_cast<Pairing>(settings.of("pairing").choice("pairing", pairing_names, 0));
   group.time_limit = settings.of("time_limit").number("time_limit", files::positive, 10.0);
   group.memory_limit = static_cast<std::size_t>(

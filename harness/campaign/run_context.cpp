@@ -38,14 +38,14 @@ record::RawRow RunContext::row(std::size_t frame, const BroadPhaseEntry& entry,
 
 record::RawRow RunContext::row(std::size_t frame, const measure::NarrowChoice& choice) const {
   record::RawRow result = row(frame);
-  result.narrow = choice.entry->info.name;
-  result.origin = record::row_origin(choice.entry->info.origin);
+  result.narrow = choice.name();
+  result.origin = record::row_origin(choice.info().origin);
   result.scalar = choice.settings.scalar;
   result.tolerance = choice.settings.tolerance.value_or(Outcome::none);
   result.duality_gap = choice.settings.duality_gap.value_or(Outcome::none);
   if (choice.warm) result.warm = true;
   if (choice.batch != measure::usual_batch) result.batch = choice.batch;
-  if (choice.entry->traits.depth_is_bound) result.depth_bound = true;
+  if (choice.entry != nullptr && choice.entry->traits.depth_is_bound) result.depth_bound = true;
   result.phase = record::Phase::narrow;
   return result;
 }
@@ -73,14 +73,14 @@ bool RunContext::admits(const BroadPhaseEntry& entry) const {
                                .pair_kind = {}});
 }
 
-bool RunContext::admits(const measure::NarrowChoice& choice, const std::string& broad, Task task,
-                        const std::string& pair_kind) const {
+bool RunContext::admits(const measure::NarrowChoice& choice, const std::string& broad,
+                        record::QueryTask task, const std::string& pair_kind) const {
   return block->group->admits({.scene = scene->name,
                                .bodies = static_cast<std::int64_t>(scene->size()),
                                .boxes = block->boxes,
                                .threads = block->threads,
                                .broad = broad,
-                               .narrow = choice.entry->info.name,
+                               .narrow = choice.name(),
                                .scalar = choice.settings.scalar,
                                .task = task,
                                .pair_kind = pair_kind,
@@ -89,7 +89,8 @@ bool RunContext::admits(const measure::NarrowChoice& choice, const std::string& 
 }
 
 bool RunContext::has_narrow() const {
-  return !block->group->narrow.empty() && scene->recording.empty();
+  const bool concave = !block->group->concave.empty() && !scene->concave.empty();
+  return (!block->group->narrow.empty() || concave) && scene->recording.empty();
 }
 
 bool RunContext::finds_pairs() const {

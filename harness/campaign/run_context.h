@@ -49,9 +49,9 @@ struct RunContext {
   std::vector<const BroadPhaseEntry*> broad() const;
   // Returns true if the campaign's rules let it take part.
   bool admits(const BroadPhaseEntry& entry) const;
-  bool admits(const measure::NarrowChoice& choice, const std::string& broad, Task task,
+  bool admits(const measure::NarrowChoice& choice, const std::string& broad, record::QueryTask task,
               const std::string& pair_kind) const;
-  // Returns true if narrow phases run on the block.
+  // Returns true if narrow phases or concave phases run on the block.
   bool has_narrow() const;
   // Returns true if narrow phases solve the pairs that each broad phase finds.
   bool finds_pairs() const;

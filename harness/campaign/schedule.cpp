@@ -99,10 +99,10 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
   for (std::size_t number = 0; number < narrow.size(); ++number) {
     const measure::NarrowSet& pairs = narrow[number];
     candidates.clear();
-    for (const measure::NarrowChoice& choice : group.narrow) {
-      const Candidate candidate{.narrow = &choice};
-      if (offers(*choice.entry, pairs.kind_a, pairs.kind_b, pairs.task) &&
-          context.admits(choice, pairs.broad, pairs.task, pairs.kind_name()) &&
+    for (const measure::NarrowChoice* choice : group.choices()) {
+      const Candidate candidate{.narrow = choice};
+      if (offer(*choice, pairs, input) == measure::Offer::taken &&
+          context.admits(*choice, pairs.broad, pairs.task, pairs.kind_name()) &&
           is_in(candidate, &pairs)) {
         candidates.push_back(candidate);
       }

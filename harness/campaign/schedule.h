@@ -18,7 +18,7 @@ struct Candidate {
   const measure::NarrowChoice* narrow = nullptr;
   bool control = false;
 
-  const AlgorithmInfo& info() const { return broad != nullptr ? broad->info : narrow->entry->info; }
+  const AlgorithmInfo& info() const { return broad != nullptr ? broad->info : narrow->info(); }
   std::string label() const;  // the label, which is equal for an algorithm and its control
   bool operator==(const Candidate&) const = default;
 };

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "algorithms/core/executor/executor.h"
@@ -12,6 +13,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/draw/scene_picture.h"
 #include "harness/grade/pair_groups.h"
+#include "harness/measure/phases/narrow_choice.h"
 #include "harness/scene/player.h"
 
 namespace touchstone::commands {
@@ -50,9 +52,34 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene,
 
   std::vector<std::uint32_t> shape_of;
   for (const scene::Body& body : scene.bodies) shape_of.push_back(body.shape);
+  std::vector<IndexPair> convex;
+  if (scene.concave.empty()) {
+    convex = pairs;
+  } else {
+    const std::vector<ConcaveBody> bodies = measure::concave_bodies(scene);
+    const auto fused = measure::concave_choices(std::array{find_concave_phase("fused")}, {},
+                                                std::array{Precision::float64})
+                           .at(0)
+                           .make_concave(bodies);
+    std::vector<IndexPair> parts;
+    for (const IndexPair& pair : pairs) {
+      const std::uint32_t a = shape_of[pair.a], b = shape_of[pair.b];
+      if (scene.concave_of(a) == nullptr && scene.concave_of(b) == nullptr) {
+        convex.push_back(pair);
+        continue;
+      }
+      Outcome outcome;
+      parts.clear();
+      fused->solve(ConcaveTask::intersect, {a, player.poses()[pair.a]}, {b, player.poses()[pair.b]},
+                   outcome, parts);
+      if (outcome.answer != Answer::overlapping) continue;
+      mark(pair.a, draw::BodyState::overlapping);
+      mark(pair.b, draw::BodyState::overlapping);
+    }
+  }
   const std::unique_ptr<NarrowPhase> narrow = find_narrow_phase("gjk")->make({});
   narrow->bind(scene.shapes);
-  for (const grade::PairGroup& group : grade::group_by_kind(pairs, scene.shapes, shape_of)) {
+  for (const grade::PairGroup& group : grade::group_by_kind(convex, scene.shapes, shape_of)) {
     std::vector<Outcome> outcomes(group.size());
     narrow->solve(Task::intersect, group.batch(shape_of, player.poses(), 0, group.size()),
                   outcomes);

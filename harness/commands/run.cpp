@@ -26,8 +26,9 @@ struct RunOptions {
   std::string campaign, out;
   // These options describe a campaign of one group on the command line.
   std::vector<std::string> scenes;
-  std::string broad = "ours,peers", narrow = "ours,peers";
-  std::vector<Task> tasks = {Task::intersect};
+  std::string broad = "ours,peers", narrow = "ours,peers", concave = "ours,peers";
+  std::string mids{measure::usual_mid_phase};
+  std::vector<record::QueryTask> tasks = {record::QueryTask::intersect};
   std::vector<Precision> scalars = {Precision::float32, Precision::float64};
   std::vector<scene::BoxKind> boxes = {scene::BoxKind::tight};
   std::vector<int> threads = {2};
@@ -77,6 +78,10 @@ campaign::Campaign campaign_of(const RunOptions& options) {
         group.narrow.push_back({entry, settings, true, options.batch});
     }
   }
+  group.concave = measure::concave_choices(
+      campaign::select(concave_phases(), campaign::split_names(options.concave), "concave phase"),
+      campaign::select(mid_phases(), campaign::split_names(options.mids), "mid-phase"),
+      options.scalars);
   group.tasks = options.tasks;
   group.pairing = options.product ? campaign::Pairing::product : campaign::Pairing::separate;
   group.time_limit = options.time_limit;
@@ -211,7 +216,13 @@ void add_run(Arguments command) {
   add(command
           .text("--narrow", options->narrow, "Narrow phases: names, all, ours, peers, oracle, none")
           .show_default());
-  add(command.some_of("--task", options->tasks, task_choices(), "What is asked"));
+  add(command
+          .text("--concave", options->concave,
+                "Concave phases, for pairs with a body that is not convex: as --narrow")
+          .show_default());
+  add(command.text("--mid", options->mids, "Mid-phases of concave phases that take any: names, all")
+          .show_default());
+  add(command.some_of("--task", options->tasks, run_task_choices(), "What is asked"));
   add(command.some_of("--scalar", options->scalars, scalar_choices(),
                       "What is calculated in (default: both)"));
   add(command.some_of("--boxes", options->boxes, box_choices(),

@@ -1,6 +1,8 @@
 // Options, results folders and choices of algorithms.
 #include "harness/commands/shared_options.h"
 
+#include "harness/base/enumerators.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +17,17 @@ const Arguments::Choices<Task>& task_choices() {
                                                    {"distance", Task::distance},
                                                    {"penetration", Task::penetration},
                                                    {"signed", Task::signed_distance}};
+  return choices;
+}
+
+const Arguments::Choices<record::QueryTask>& run_task_choices() {
+  static const Arguments::Choices<record::QueryTask> choices = [] {
+    Arguments::Choices<record::QueryTask> all;
+    for (const record::QueryTask task : base::enumerators<record::QueryTask>) {
+      all.emplace_back(to_string(task), task);
+    }
+    return all;
+  }();
   return choices;
 }
 

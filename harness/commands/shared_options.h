@@ -12,6 +12,7 @@
 #include "algorithms/registry.h"
 #include "harness/commands/arguments.h"
 #include "harness/process/isolate.h"
+#include "harness/record/query_task.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone::commands {
@@ -19,6 +20,8 @@ namespace touchstone::commands {
 const Arguments::Choices<Task>& task_choices();
 // Those of a trade, whose error is that of a distance or of a depth.
 const Arguments::Choices<Task>& trade_task_choices();
+// These, and that of concave phases.
+const Arguments::Choices<record::QueryTask>& run_task_choices();
 const Arguments::Choices<Precision>& scalar_choices();
 const Arguments::Choices<scene::BoxKind>& box_choices();
 

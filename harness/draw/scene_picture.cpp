@@ -1,4 +1,4 @@
-// Draws bodies as polytopes, half-spaces as squares.
+// Draws bodies as polytopes or by their triangles, half-spaces as squares.
 #include "harness/draw/scene_picture.h"
 
 #include <algorithm>
@@ -59,6 +59,13 @@ void draw_hull(Canvas& canvas, const Hull& hull, const Pose& pose, Colour colour
   }
 }
 
+void draw_mesh(Canvas& canvas, const geometry::Mesh& mesh, const Pose& pose, Colour colour) {
+  for (const auto& [a, b, c] : mesh.triangles) {
+    canvas.polygon(
+        std::array{pose(mesh.vertices[a]), pose(mesh.vertices[b]), pose(mesh.vertices[c])}, colour);
+  }
+}
+
 // Draws the part of a half-space's face around the other bodies.
 void draw_halfspace(Canvas& canvas, const Shape& shape, const Pose& pose, const Vec3d& centre,
                     double reach, Colour colour) {
@@ -108,6 +115,8 @@ void draw_scene(Canvas& canvas, const scene::Scene& scene, std::span<const Pose>
     if (shape.kind == ShapeKind::halfspace) {
       draw_halfspace(canvas, shape, poses[i], (low + high) / 2, (high - low).norm() / 2 + 1e-9,
                      colour);
+    } else if (scene.concave_of(scene.bodies[i].shape) != nullptr) {
+      draw_mesh(canvas, *scene.mesh_of(scene.bodies[i].shape), poses[i], colour);
     } else {
       draw_hull(canvas, *shape.hull, poses[i], colour);
     }

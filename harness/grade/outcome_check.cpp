@@ -47,7 +47,7 @@ void OutcomeFaults::add(const OutcomeFaults& other) {
 
 OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
                              std::span<const ReferenceOutcome> reference, Task task,
-                             Precision scalar) {
+                             Precision scalar, std::span<const PartList> lists) {
   OutcomeFaults faults;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& outcome = outcomes[i];
@@ -59,6 +59,10 @@ OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
     if (verdict == Verdict::right && is_within_resolution(outcome)) {
       by = std::max(outcome.lower - expected.distance, expected.distance - outcome.upper);
       if (by > band) verdict = Verdict::silent_error;
+    }
+    if (verdict == Verdict::right && !lists.empty() && lists[i] != expected.parts) {
+      verdict = Verdict::silent_error;
+      by = Outcome::none;
     }
     switch (verdict) {
       case Verdict::crashed: ++faults.crashed; continue;

@@ -11,6 +11,7 @@
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 #include "algorithms/oracle/oracle.h"
+#include "harness/grade/concave/part_list.h"
 #include "harness/grade/pair_groups.h"
 
 namespace touchstone::grade {
@@ -21,6 +22,7 @@ struct ReferenceOutcome {
   double distance = Outcome::none;  // signed, metres; the middle of an enclosure
   double size = 0;                  // greatest extent of the two bodies, metres
   double reach = 0;                 // greatest coordinate of the two bodies, metres
+  PartList parts = {};              // pairs of parts in contact, if they were asked for
 };
 
 // Counts of faults over pairs.
@@ -42,9 +44,10 @@ struct OutcomeFaults {
   void add(const OutcomeFaults& other);  // adds counts, keeps maxima and the worse pair
 };
 
+// `lists` has the pairs of parts that were found, or is empty; a wrong list is a disagreement.
 OutcomeFaults check_outcomes(std::span<const Outcome> outcomes,
                              std::span<const ReferenceOutcome> reference, Task task,
-                             Precision scalar);
+                             Precision scalar, std::span<const PartList> lists = {});
 
 // Exact answers for the pairs of a group.
 class Reference {

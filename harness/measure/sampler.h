@@ -28,6 +28,7 @@ struct SampleReply {
   std::uint64_t pair_hash = 0;
   std::int64_t contacts = -1;
   std::uint64_t outcome_hash = 0;
+  std::int64_t part_pairs = -1;  // pairs of parts in contact, if the task is to find all
   std::int64_t iterations = -1, support_calls = -1;
   BroadPhaseWork work;         // work of a frame that was `hashed`, because counting takes time
   Status status = Status::ok;  // the last status of a broad phase that was not ok

@@ -10,6 +10,7 @@
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/isa.h"
 #include "algorithms/core/outcome.h"
+#include "harness/record/query_task.h"
 #include "harness/record/row.h"
 #include "harness/scene/scene.h"
 
@@ -61,7 +62,7 @@ struct RawRow {
   std::string broad, narrow;
   std::optional<RowOrigin> origin;
   std::optional<Precision> scalar;
-  std::optional<Task> task;
+  std::optional<QueryTask> task;
   double tolerance = Outcome::none, duality_gap = Outcome::none;
   std::optional<bool> twin;
   std::int64_t threads = 0;
@@ -95,6 +96,7 @@ struct RawRow {
   std::int64_t batch = -1;  // pairs of a call, if that is not the usual number
   // True if the narrow phase's depth is that of some translation that separates, by design.
   std::optional<bool> depth_bound;
+  std::int64_t part_pairs = -1;
 
   void take(const BroadPhaseWork& work);
 
@@ -130,12 +132,16 @@ void columns(Row& row, Visit visit) {
   visit("broad", row.broad,
         "The broad phase. In a row of a narrow phase: the broad phase that found its pairs; empty "
         "for the true pairs of the frame.");
-  visit("narrow", row.narrow, "The narrow phase; empty in a row of a broad phase.");
+  visit("narrow", row.narrow,
+        "The narrow phase or concave phase; empty in a row of a broad phase. A concave phase that "
+        "takes any mid-phase has its name behind: `part-pairs wide-bvh`.");
   visit("origin", newer(row.origin),
         "Origin of the algorithm that is measured. `limit` is the lower bound of a broad phase: "
         "radix sort, gather and writing of the pairs.");
   visit("scalar", row.scalar, "The narrow phase's scalar type.");
-  visit("task", row.task, "The narrow phase's task.");
+  visit("task", row.task,
+        "The narrow phase's task. `contacts`, of concave phases: all pairs of parts that share a "
+        "point.");
   visit("tolerance", row.tolerance,
         "Tolerance of the narrow phase, a part of the size; empty: the algorithm's own.");
   visit("duality_gap", newer(row.duality_gap),
@@ -151,7 +157,8 @@ void columns(Row& row, Visit visit) {
         "The most vector instructions that the campaign allows; empty: no limit.");
   visit("rebuild", newer(row.rebuild), "Broad phases: 1 where every frame is built anew.");
   visit("pair_kind", row.pair_kind,
-        "The kinds of the two shapes. Each pair of kinds is timed separately.");
+        "The kinds of the two shapes. Each pair of kinds is timed separately. In pairs for concave "
+        "phases `mesh` is a surface, `solid` one whose inside counts, `compound` a body of parts.");
   visit("process", row.process,
         "Process number from 0. In a check row it says that a worker failed its first, untimed "
         "pass.");
@@ -239,6 +246,9 @@ void columns(Row& row, Visit visit) {
   visit("depth_bound", newer(row.depth_bound),
         "1 for a narrow phase whose depth is an upper bound by design: that of some translation "
         "that separates the bodies, in general not the least.");
+  visit("part_pairs", newer(row.part_pairs),
+        "Task `contacts`: pairs of triangles or convex parts that share a point, summed over the "
+        "queries.");
 }
 
 // Returns a narrow phase with its settings, as the tables name it: "gjk double", "gjk double

@@ -47,6 +47,16 @@ OrderedJson shape_view(const Shape& shape) {
   return view;
 }
 
+OrderedJson mesh_view(const geometry::Mesh& mesh) {
+  OrderedJson view = {{"type", to_string(ShapeKind::hull)}};
+  OrderedJson vertices = OrderedJson::array(), faces = OrderedJson::array();
+  for (const Vec3d& vertex : mesh.vertices) vertices.push_back(triple(vertex));
+  for (const auto& triangle : mesh.triangles) faces.push_back(triangle);
+  view["vertices"] = std::move(vertices);
+  view["faces"] = std::move(faces);
+  return view;
+}
+
 OrderedJson body_view(const Shape& shape, const Pose& pose) {
   OrderedJson matrix = OrderedJson::array();
   for (int row = 0; row < 3; ++row) {

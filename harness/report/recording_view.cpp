@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "harness/report/body_view.h"
@@ -43,13 +44,33 @@ std::string packed_boxes(const measure::BlockInput& input, std::size_t bodies) {
   return packed_frames(numbers, 6 * bodies);
 }
 
-OrderedJson pairs_view(const ScenePairs& pairs, const RecordingRequest& request) {
-  std::vector<std::vector<std::uint8_t>> verdicts;
+// In a scene with bodies that are not convex, ours of the concave phases are asked too.
+std::vector<measure::NarrowChoice> choices(const RecordingRequest& request,
+                                           const measure::BlockInput& input) {
+  std::vector<measure::NarrowChoice> all;
   for (const NarrowPhaseEntry* entry : request.narrow) {
-    verdicts.push_back(pairs.verdicts(*entry, request.time_limit));
+    const auto scalar =
+        offers(*entry, Precision::float64) ? Precision::float64 : Precision::float32;
+    all.push_back({.entry = entry, .settings = {.scalar = scalar}});
   }
-  const std::vector<double> distances =
-      pairs.distances(*find_narrow_phase("certified"), request.time_limit);
+  if (input.bodies.empty()) return all;
+  for (const ConcaveEntry& entry : concave_phases()) {
+    if (entry.info.origin != Origin::ours || !is_built(entry.info)) continue;
+    const auto made = measure::concave_choices(std::array{&entry},
+                                               std::array{find_mid_phase(measure::usual_mid_phase)},
+                                               std::array{Precision::float64});
+    all.insert(all.end(), made.begin(), made.end());
+  }
+  return all;
+}
+
+OrderedJson pairs_view(const ScenePairs& pairs, std::span<const measure::NarrowChoice> asked,
+                       double time_limit) {
+  std::vector<std::vector<std::uint8_t>> verdicts;
+  for (const measure::NarrowChoice& choice : asked) {
+    verdicts.push_back(pairs.verdicts(choice, time_limit));
+  }
+  const std::vector<double> distances = pairs.distances(time_limit);
   OrderedJson frames = OrderedJson::array();
   for (std::size_t frame = 0; frame < pairs.frames(); ++frame) {
     const std::size_t begin = pairs.start(frame), end = pairs.start(frame + 1);
@@ -84,9 +105,13 @@ OrderedJson recording_view(const RecordingRequest& request) {
   }
   const ScenePairs pairs(input);
   OrderedJson shapes = OrderedJson::array(), names = OrderedJson::array();
-  for (const Shape& shape : scene.shapes) shapes.push_back(shape_view(shape));
-  for (const NarrowPhaseEntry* entry : request.narrow) {
-    if (!boxes_only) names.push_back(entry->info.name);
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    shapes.push_back(scene.concave_of(i) != nullptr ? mesh_view(*scene.mesh_of(i))
+                                                    : shape_view(scene.shapes[i]));
+  }
+  const std::vector<measure::NarrowChoice> asked = choices(request, input);
+  for (const measure::NarrowChoice& choice : asked) {
+    if (!boxes_only) names.push_back(choice.name());
   }
   return {{"name", scene.name},
           {"source", request.scene.string()},
@@ -101,7 +126,7 @@ OrderedJson recording_view(const RecordingRequest& request) {
           {"poses", boxes_only ? std::string() : packed_poses(input)},
           {"boxes", packed_boxes(input, bodies)},
           {"algorithms", std::move(names)},
-          {"pairs", pairs_view(pairs, request)},
+          {"pairs", pairs_view(pairs, asked, request.time_limit)},
           {"structures", structure_views(input, request.broad)}};
 }
 

@@ -2,6 +2,7 @@
 #include "harness/report/scene_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -20,8 +21,15 @@ ScenePairs::ScenePairs(const measure::BlockInput& input) : input_(&input) {
         all.second.push_back(pair.b);
       }
     } else {
-      groups_.push_back(grade::group_by_kind(frame.truth, input.shapes, input.shape_of));
+      std::vector<IndexPair> convex = frame.truth;
+      const auto concave = std::ranges::stable_partition(convex, [&](const IndexPair& pair) {
+        return !input.is_concave(pair.a) && !input.is_concave(pair.b);
+      });
+      concave_.emplace_back(concave.begin(), concave.end());
+      convex.erase(concave.begin(), concave.end());
+      groups_.push_back(grade::group_by_kind(convex, input.shapes, input.shape_of));
     }
+    concave_.resize(groups_.size());
     starts_.push_back(starts_.back() + frame.truth.size());
   }
 }
@@ -33,6 +41,7 @@ std::vector<std::uint32_t> ScenePairs::bodies(std::size_t frame) const {
       bodies.insert(bodies.end(), {group.first[i], group.second[i]});
     }
   }
+  for (const IndexPair& pair : concave_[frame]) bodies.insert(bodies.end(), {pair.a, pair.b});
   return bodies;
 }
 
@@ -50,47 +59,78 @@ std::vector<Outcome> ScenePairs::solve(NarrowPhase& narrow, const NarrowPhaseEnt
   return outcomes;
 }
 
+std::vector<Outcome> ScenePairs::solve(ConcavePhase& phase, const ConcaveEntry& entry,
+                                       ConcaveTask task, std::size_t frame) const {
+  std::vector<Outcome> outcomes(start(frame + 1) - start(frame));
+  std::size_t at = outcomes.size() - concave_[frame].size();
+  std::vector<IndexPair> parts;
+  const std::vector<Pose>& poses = input_->frames[frame].poses;
+  for (const IndexPair& pair : concave_[frame]) {
+    const std::uint32_t a = input_->shape_of[pair.a], b = input_->shape_of[pair.b];
+    Outcome& outcome = outcomes[at++];
+    if (entry.supports != nullptr && !entry.supports(input_->bodies[a], input_->bodies[b]))
+      continue;
+    parts.clear();
+    phase.solve(task, {a, poses[pair.a]}, {b, poses[pair.b]}, outcome, parts);
+  }
+  return outcomes;
+}
+
 template <class Number, class Take>
-std::vector<Number> ScenePairs::ask(const NarrowPhaseEntry& entry, Task task, double time_limit,
-                                    Number lost, const Take& take) const {
+std::vector<Number> ScenePairs::ask(const measure::NarrowChoice& choice, record::QueryTask task,
+                                    double time_limit, Number lost, const Take& take) const {
   process::SharedArray<Number> numbers(all());
   std::ranges::fill(numbers.span(), lost);
   if (input_->shapes.empty()) return std::vector<Number>(all(), lost);
-  NarrowPhaseSettings settings;
-  if (!offers(entry, settings.scalar)) settings.scalar = Precision::float32;
-  process::isolate(frames(), {.item_seconds = time_limit, .failures = 3},
-                   [&]() -> process::ItemWork {
-                     const std::shared_ptr<NarrowPhase> narrow = entry.make(settings);
-                     narrow->bind(input_->shapes);
-                     return [&, narrow](std::size_t frame) {
-                       const std::vector<Outcome> outcomes = solve(*narrow, entry, task, frame);
-                       for (std::size_t i = 0; i < outcomes.size(); ++i) {
-                         numbers[start(frame) + i] = take(outcomes[i]);
-                       }
-                     };
-                   });
+  process::isolate(
+      frames(), {.item_seconds = time_limit, .failures = 3}, [&]() -> process::ItemWork {
+        std::shared_ptr<NarrowPhase> narrow;
+        std::shared_ptr<ConcavePhase> concave;
+        if (choice.entry != nullptr) {
+          narrow = choice.entry->make(choice.settings);
+          narrow->bind(input_->shapes);
+        } else {
+          concave = choice.make_concave(input_->bodies);
+        }
+        return [&, narrow, concave](std::size_t frame) {
+          const std::vector<Outcome> outcomes =
+              narrow != nullptr
+                  ? solve(*narrow, *choice.entry, *record::narrow_task(task), frame)
+                  : solve(*concave, *choice.concave, *record::concave_task(task), frame);
+          for (std::size_t i = 0; i < outcomes.size(); ++i) {
+            numbers[start(frame) + i] = take(outcomes[i]);
+          }
+        };
+      });
   return {numbers.span().begin(), numbers.span().end()};
 }
 
-std::vector<std::uint8_t> ScenePairs::verdicts(const NarrowPhaseEntry& entry,
+std::vector<std::uint8_t> ScenePairs::verdicts(const measure::NarrowChoice& choice,
                                                double time_limit) const {
   constexpr auto unknown = static_cast<std::uint8_t>(Answer::unknown);
-  return ask(entry, Task::intersect, time_limit, unknown, [](const Outcome& outcome) {
+  return ask(choice, record::QueryTask::intersect, time_limit, unknown, [](const Outcome& outcome) {
     return grade::stands_by(outcome) ? static_cast<std::uint8_t>(outcome.answer) : unknown;
   });
 }
 
-std::vector<double> ScenePairs::distances(const NarrowPhaseEntry& entry, double time_limit) const {
+std::vector<double> ScenePairs::distances(double time_limit) const {
   constexpr double none = Outcome::none;
   const auto of = [](const Outcome& outcome) {
     if (!grade::stands_by(outcome)) return none;
     return outcome.answer == Answer::touching ? 0.0 : outcome.distance;
   };
-  std::vector<double> found = ask(entry, Task::distance, time_limit, none, of);
-  const std::vector<double> depths = ask(entry, Task::penetration, time_limit, none, of);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (std::isnan(found[i])) found[i] = depths[i];
-  }
+  const measure::NarrowChoice certified{.entry = find_narrow_phase("certified"), .settings = {}};
+  std::vector<double> found = ask(certified, record::QueryTask::distance, time_limit, none, of);
+  const auto add = [&](const std::vector<double>& more) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (std::isnan(found[i])) found[i] = more[i];
+    }
+  };
+  add(ask(certified, record::QueryTask::penetration, time_limit, none, of));
+  if (input_->bodies.empty()) return found;
+  const auto fused = measure::concave_choices(std::array{find_concave_phase("fused")}, {},
+                                              std::array{Precision::float64});
+  add(ask(fused.at(0), record::QueryTask::distance, time_limit, none, of));
   return found;
 }
 

@@ -7,10 +7,12 @@
 #include "algorithms/registry.h"
 #include "harness/grade/pair_groups.h"
 #include "harness/measure/phases/block_input.h"
+#include "harness/measure/phases/narrow_choice.h"
 
 namespace touchstone::report {
 
-// The pairs of all frames, one frame after the other; within a frame they are grouped by kind.
+// The pairs of all frames, one frame after the other; within a frame they are grouped by kind, and
+// those with a body that is not convex follow.
 class ScenePairs {
  public:
   // The input must outlive this object.
@@ -26,22 +28,27 @@ class ScenePairs {
   // The two functions below ask in a child process. A frame that crashes, or takes more than
   // `time_limit` seconds, is not answered.
 
-  // Returns a verdict for each pair: 0 apart, 1 touching, 2 overlapping, 3 unknown, given up or not asked.
-  std::vector<std::uint8_t> verdicts(const NarrowPhaseEntry& entry, double time_limit) const;
-  // Returns the signed distance of each pair in metres; NaN if it is unknown or
-  // only a bound.
-  std::vector<double> distances(const NarrowPhaseEntry& entry, double time_limit) const;
+  // Returns a verdict for each pair: 0 apart, 1 touching, 2 overlapping, 3 unknown, given up or not
+  // asked. Concave phases are asked about the pairs with a body that is not convex, narrow phases
+  // about the others.
+  std::vector<std::uint8_t> verdicts(const measure::NarrowChoice& choice, double time_limit) const;
+  // Returns the signed distance of each pair in metres, by `certified`, or `fused` for concave pairs;
+  // NaN if it is unknown or only a bound, or if bodies overlap that are not convex.
+  std::vector<double> distances(double time_limit) const;
 
  private:
   template <class Number, class Take>
-  std::vector<Number> ask(const NarrowPhaseEntry& entry, Task task, double time_limit, Number lost,
-                          const Take& take) const;
+  std::vector<Number> ask(const measure::NarrowChoice& choice, record::QueryTask task,
+                          double time_limit, Number lost, const Take& take) const;
   std::vector<Outcome> solve(NarrowPhase& narrow, const NarrowPhaseEntry& entry, Task task,
+                             std::size_t frame) const;
+  std::vector<Outcome> solve(ConcavePhase& phase, const ConcaveEntry& entry, ConcaveTask task,
                              std::size_t frame) const;
 
   const measure::BlockInput* input_;
   std::vector<std::size_t> starts_ = {0};
-  std::vector<std::vector<grade::PairGroup>> groups_;  // by frame
+  std::vector<std::vector<grade::PairGroup>> groups_;  // by frame, of convex bodies
+  std::vector<std::vector<IndexPair>> concave_;        // by frame
 };
 
 }  // namespace touchstone::report

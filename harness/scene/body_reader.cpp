@@ -4,44 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "harness/base/reproducible_math.h"
+#include "harness/scene/placement.h"
 
 namespace touchstone::scene {
 namespace {
-
-// Reads a row-major matrix. It is used as given if it is a rotation to a thousandth.
-Mat3d read_matrix(files::TomlTable& table) {
-  const std::vector<double> m = table.numbers("rotation", 9, files::any_number);
-  Mat3d rotation;
-  rotation << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];
-  const double error = (rotation.transpose() * rotation - Mat3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error <= 1e-3) || rotation.determinant() < 0) {
-    table.fail("rotation", fmt::format("the columns are not orthonormal or not right-handed (off "
-                                       "by {:.3g}); expected a rotation matrix, row by row",
-                                       error));
-  }
-  return rotation;
-}
-
-Mat3d read_rotation(files::TomlTable& table) {
-  if (table.has("rotation")) {
-    if (table.contains("quaternion_wxyz")) {
-      table.fail("quaternion_wxyz", "given beside rotation; expected one of the two");
-    }
-    return read_matrix(table);
-  }
-  if (!table.has("quaternion_wxyz")) return Mat3d::Identity();
-  const std::vector<double> q = table.numbers("quaternion_wxyz", 4, files::any_number);
-  // The numbers are scaled first, so that no square overflows or underflows.
-  const double size = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
-  if (!(size > 0)) {
-    table.fail("quaternion_wxyz", "found [0, 0, 0, 0]; expected a quaternion that is not zero");
-  }
-  return base::rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
-}
 
 // Reads a scene file's lists of shapes and bodies.
 class BodyReader {
@@ -75,7 +44,7 @@ class BodyReader {
   Placed add(files::TomlTable& table) {
     const TurnedShape turned = shapes_.read(table);
     table.finish();
-    return {scene_.add_shape(turned.shape, turned.mesh), turned.turn};
+    return {scene_.add_shape(turned.shape, turned.mesh, turned.body), turned.turn};
   }
 
   // The key "shape" is a name or a table; "mesh" and "scale" are keys of the body itself.
@@ -97,28 +66,30 @@ class BodyReader {
                                    names.empty() ? "there are none" : names));
   }
 
-  // Bodies with the same mesh and scale share their shape.
+  // Bodies with the same mesh, scale and use share their shape.
   Placed mesh_of(files::TomlTable& body) {
     const TurnedShape turned = shapes_.read(body);
-    return {index_of(turned.shape, turned.mesh), Mat3d::Identity()};
+    return {index_of({turned.shape, turned.mesh, turned.body}), Mat3d::Identity()};
   }
 
-  std::uint32_t index_of(const Shape& shape, const std::shared_ptr<const geometry::Mesh>& mesh) {
+  std::uint32_t index_of(const ConcaveShape& shape) {
     const auto same = std::find_if(
         scene_.shapes.begin(), scene_.shapes.end(),
-        [&](const Shape& other) { return other.hull != nullptr && other.hull == shape.hull; });
-    if (same == scene_.shapes.end()) return scene_.add_shape(shape, mesh);
+        [&](const Shape& other) { return other.hull != nullptr && other.hull == shape.hull.hull; });
+    if (same == scene_.shapes.end()) return scene_.add_shape(shape.hull, shape.mesh, shape.body);
     return static_cast<std::uint32_t>(same - scene_.shapes.begin());
   }
 
   void read_body(files::TomlTable& table) {
-    const bool parts = table.contains("mesh") && table.boolean("parts", false);
+    // A compound of the mesh's parts is one body, whatever a file that is imported wants.
+    const bool parts = table.contains("mesh") && table.boolean("parts", false) &&
+                       shapes_.use_of(table) != MeshUse::compound;
     const Placed placed = parts ? Placed{} : shape_of(table);
     const bool halfspace = !parts && scene_.shapes[placed.shape].kind == ShapeKind::halfspace;
     Body body;
     body.shape = placed.shape;
-    body.pose.rotation = base::product(read_rotation(table), placed.turn);
-    body.pose.translation = table.vector("translation", files::any_number, Vec3d::Zero());
+    body.pose = read_pose(table);
+    body.pose.rotation = base::product(body.pose.rotation, placed.turn);
     body.velocity = table.vector("velocity", files::any_number, Vec3d::Zero());
     body.angular_velocity = table.vector("angular_velocity", files::any_number, Vec3d::Zero());
     body.moving = table.boolean("moving", !halfspace);
@@ -139,7 +110,7 @@ class BodyReader {
     }
     for (const MeshPart& part : shapes_.read_parts(table)) {
       Body body = whole;
-      body.shape = index_of(part.shape, part.mesh);
+      body.shape = index_of(part.shape);
       for (int k = 0; k < 3; ++k) {
         body.pose.translation[k] += whole.pose.rotation(k, 0) * part.centre.x() +
                                     whole.pose.rotation(k, 1) * part.centre.y() +

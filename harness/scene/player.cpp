@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "algorithms/core/bounds.h"
+#include "harness/scene/concave_shape.h"
 
 namespace touchstone::scene {
 namespace {
@@ -25,9 +26,13 @@ void include(Aabb& region, const Aabb& box) {
 
 // The reach must hold for every orientation of a rotating body, although each is orthonormal only
 // up to rounding.
-double reach_of(const Shape& shape, const Body& body) {
+double reach_of(const Scene& scene, const Body& body) {
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  return loose_reach(shape, body.pose.rotation) * (1 + rounding);
+  const Shape& shape = scene.shapes[body.shape];
+  const ConcaveBody* concave = scene.concave_of(body.shape);
+  const double reach = concave != nullptr ? concave_reach(*concave, shape, body.pose.rotation)
+                                          : loose_reach(shape, body.pose.rotation);
+  return reach * (1 + rounding);
 }
 
 }  // namespace
@@ -43,7 +48,7 @@ ScenePlayer::ScenePlayer(const Scene& scene, BoxKind kind)
   if (kind == BoxKind::loose) {
     reach_.reserve(scene.bodies.size());
     for (const Body& body : scene.bodies) {
-      reach_.push_back(reach_of(scene.shapes[body.shape], body));
+      reach_.push_back(reach_of(scene, body));
     }
   }
   fill_world();
@@ -75,11 +80,13 @@ void ScenePlayer::fill_world() {
 }
 
 Aabb ScenePlayer::box_of(std::size_t body) const {
-  const Shape& shape = scene_->shapes[scene_->bodies[body].shape];
+  const std::uint32_t number = scene_->bodies[body].shape;
+  const Shape& shape = scene_->shapes[number];
   const Pose& pose = kinematics_.poses()[body];
   if (shape.kind != ShapeKind::halfspace) {
-    return kind_ == BoxKind::loose ? loose_box(reach_[body], pose.translation)
-                                   : tight_box(shape, pose);
+    if (kind_ == BoxKind::loose) return loose_box(reach_[body], pose.translation);
+    const ConcaveBody* concave = scene_->concave_of(number);
+    return concave != nullptr ? concave_box(*concave, shape, pose) : tight_box(shape, pose);
   }
   Aabb box = tight_box(shape, pose);
   if (world_.is_empty()) return box;

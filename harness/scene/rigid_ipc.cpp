@@ -12,11 +12,11 @@
 #include <tuple>
 #include <utility>
 
-#include "algorithms/hull/convex_hull.h"
 #include "harness/base/error.h"
 #include "harness/base/reproducible_math.h"
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/mesh_mass.h"
+#include "harness/scene/concave_shape.h"
 #include "harness/scene/json_object.h"
 
 namespace touchstone::scene {
@@ -44,7 +44,7 @@ Mat3d rotation_of_degrees(const Vec3d& degrees) {
 
 class Importer {
  public:
-  explicit Importer(std::filesystem::path file) : file_(std::move(file)) {}
+  Importer(std::filesystem::path file, MeshUse use) : file_(std::move(file)), use_(use) {}
 
   Scene import() {
     const Json json = parse_json(file_, "a rigid-ipc scene");
@@ -212,12 +212,10 @@ class Importer {
          split ? geometry::connected_parts(mesh) : std::vector<geometry::Mesh>{mesh}) {
       const Vec3d centre = geometry::centre_of_mass(part);
       for (Vec3d& v : part.vertices) v -= centre;
-      Shape shape;
-      shape.kind = ShapeKind::hull;
-      shape.hull = make_reduced_hull(part.vertices);
-      const std::uint32_t index =
-          scene_.add_shape(std::move(shape), std::make_shared<geometry::Mesh>(std::move(part)));
-      parts.push_back({index, centre});
+      // A body of loose points has no triangles, and is their hull.
+      const MeshUse use = part.triangles.empty() ? MeshUse::hull : use_;
+      ConcaveShape shape = mesh_shape(std::move(part), use);
+      parts.push_back({scene_.add_shape(shape.hull, shape.mesh, shape.body), centre});
     }
     return parts;
   }
@@ -237,6 +235,7 @@ class Importer {
   }
 
   std::filesystem::path file_;
+  MeshUse use_;
   Scene scene_;
   double end_ = std::numeric_limits<double>::infinity();  // seconds
   std::map<std::string, geometry::Mesh> meshes_;
@@ -246,6 +245,8 @@ class Importer {
 
 }  // namespace
 
-Scene import_rigid_ipc(const std::filesystem::path& file) { return Importer(file).import(); }
+Scene import_rigid_ipc(const std::filesystem::path& file, MeshUse use) {
+  return Importer(file, use).import();
+}
 
 }  // namespace touchstone::scene

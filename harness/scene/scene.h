@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "algorithms/core/aabb.h"
+#include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
@@ -57,8 +58,12 @@ struct Scene {
   std::string name;  // the file's stem, unless the file gives a name
   std::vector<Shape> shapes;
   // The meshes of shapes that are convex hulls of meshes, in the same frame; null for other shapes.
-  // Empty if no shape has a mesh.
+  // That of a compound is the surfaces of its parts, round ones as polytopes. Empty if no shape has
+  // a mesh.
   std::vector<std::shared_ptr<const geometry::Mesh>> meshes;
+  // The bodies of shapes that are not convex, in the same frame: such a shape is only the hull that
+  // stands for the body. Null for convex ones. Empty if all are convex.
+  std::vector<std::shared_ptr<const ConcaveBody>> concave;
   // The last Motion::churn bodies are not present at frame 0.
   std::vector<Body> bodies;
   int frames = 1;  // at least one
@@ -70,16 +75,24 @@ struct Scene {
   // phase; equal in every frame. Otherwise empty.
   std::vector<IndexPair> pairs;
 
-  std::uint32_t add_shape(Shape shape, std::shared_ptr<const geometry::Mesh> mesh = nullptr) {
+  std::uint32_t add_shape(Shape shape, std::shared_ptr<const geometry::Mesh> mesh = nullptr,
+                          std::shared_ptr<const ConcaveBody> body = nullptr) {
     shapes.push_back(std::move(shape));
     if (mesh != nullptr || !meshes.empty()) {
       meshes.resize(shapes.size());
       meshes.back() = std::move(mesh);
     }
+    if (body != nullptr || !concave.empty()) {
+      concave.resize(shapes.size());
+      concave.back() = std::move(body);
+    }
     return static_cast<std::uint32_t>(shapes.size() - 1);
   }
   const geometry::Mesh* mesh_of(std::size_t shape) const {
     return shape < meshes.size() ? meshes[shape].get() : nullptr;
+  }
+  const ConcaveBody* concave_of(std::size_t shape) const {
+    return shape < concave.size() ? concave[shape].get() : nullptr;
   }
 
   // The number of bodies present, which is equal in every frame.

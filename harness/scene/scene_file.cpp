@@ -133,8 +133,10 @@ Scene load_recording(const std::filesystem::path& file) {
   return scene;
 }
 
-Scene import_scene(const std::filesystem::path& file) {
-  if (file.extension() == ".json") return import_rigid_ipc(file);
+Scene import_scene(const std::filesystem::path& file, const MeshUses& uses) {
+  if (file.extension() == ".json") {
+    return import_rigid_ipc(file, uses.instead.value_or(uses.own.value_or(MeshUse::surface)));
+  }
   if (file.extension() == ".aabbs") return load_recording(file);
   throw base::InputError(
       file.string(), 0,
@@ -152,13 +154,21 @@ void set_frames(const std::string& file, std::int64_t line, std::int64_t frames,
   if (recorded > 0) scene.recording.resize(static_cast<std::size_t>(frames));
 }
 
-// `lines` receives the lines of listed bodies.
+// Scenes that are imported import none themselves.
+void expect_listed(const std::filesystem::path& file) {
+  if (files::has_key(file, "body")) return;
+  throw base::InputError(file.string(), 0, "lists no bodies, and is imported; expected [[body]]");
+}
+
+// `lines` receives the lines of listed bodies. `instead`, of a file that imports this one, replaces
+// what meshes are.
 Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrides,
-                std::vector<std::int64_t>& lines) {
+                std::vector<std::int64_t>& lines, std::optional<MeshUse> instead = {}) {
   const toml::table content = files::parse_toml(path);
   const std::string file = path.string();
   files::TomlTable table(content, file, "");
-  ShapeReader shapes(path.parent_path(), table.text("get", ""));
+  const MeshUses uses = read_mesh_uses(table, instead);
+  ShapeReader shapes(path.parent_path(), table.text("get", ""), uses);
   constexpr std::string_view forms[] = {"generator", "body", "import"};
   const auto given = std::count_if(std::begin(forms), std::end(forms),
                                    [&](std::string_view key) { return table.contains(key); });
@@ -180,8 +190,14 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
       lines = read_bodies(table, shapes, scene);
     } else {
       const std::filesystem::path imported =
-          shapes.existing_file(table, "import", "a .json or .aabbs file");
-      scene = import_scene(imported);
+          shapes.existing_file(table, "import", "a .toml, .json or .aabbs file");
+      if (imported.extension() == ".toml") {
+        expect_listed(imported);
+        std::vector<std::int64_t> theirs;
+        scene = read_toml(imported, {}, theirs, uses.instead ? uses.instead : uses.own);
+      } else {
+        scene = import_scene(imported, uses);
+      }
       frames = scene.frames;
     }
     refuse_count(file, overrides);
@@ -267,7 +283,7 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
   if (path.extension() == ".toml") {
     scene = read_toml(path, overrides, lines);
   } else {
-    scene = import_scene(path);
+    scene = import_scene(path, {});
     refuse_count(file, overrides);
     refuse_seed(file, overrides);
     refuse_gap(file, overrides);

@@ -50,6 +50,24 @@ class Hash {
         break;
     }
   }
+  // Adds the triangles, or the parts with their places.
+  void add(const ConcaveBody& body) {
+    add(std::uint64_t{body.part_count()} * 4 + (body.mesh == nullptr ? 0
+                                                : body.mesh->solid   ? 2
+                                                                     : 1));
+    if (body.mesh != nullptr) {
+      add(std::uint64_t{body.mesh->vertices.size()});
+      for (const Vec3d& vertex : body.mesh->vertices) add(vertex);
+      for (const auto& [a, b, c] : body.mesh->triangles) {
+        add((std::uint64_t{a} << 32) | b);
+        add(std::uint64_t{c});
+      }
+    }
+    for (const ConvexPart& part : body.parts) {
+      add(part.shape);
+      add(part.pose);
+    }
+  }
   void add(const Motion& motion) {
     add(static_cast<std::uint64_t>(motion.kind));
     add(motion.time_step);
@@ -85,6 +103,11 @@ std::string scene_hash(const Scene& scene) {
   }
   hash.add(std::uint64_t{scene.shapes.size()});
   for (const Shape& shape : scene.shapes) hash.add(shape);
+  for (std::size_t i = 0; i < scene.concave.size(); ++i) {
+    if (scene.concave[i] == nullptr) continue;
+    hash.add(std::uint64_t{i});
+    hash.add(*scene.concave[i]);
+  }
   hash.add(std::uint64_t{scene.bodies.size()});
   hash.add(static_cast<std::uint64_t>(scene.frames));
   hash.add(scene.motion);

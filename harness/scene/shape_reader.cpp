@@ -1,9 +1,17 @@
 // Reads shapes and meshes of scene files, each mesh once.
 #include "harness/scene/shape_reader.h"
 
+#include <algorithm>
+#include <array>
+
+#include "algorithms/core/nearest_float.h"
 #include "algorithms/hull/convex_hull.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/mesh_mass.h"
+#include "harness/geometry/shapes/compound.h"
+#include "harness/geometry/shapes/mesh_shapes.h"
+#include "harness/scene/placement.h"
 
 namespace touchstone::scene {
 namespace {
@@ -17,11 +25,20 @@ Mat3d axis_turn(std::size_t axis) {
   return turn;
 }
 
-geometry::Mesh read_scaled(const std::tuple<std::string, double, double, double>& mesh_and_scale) {
-  const auto& [file, x, y, z] = mesh_and_scale;
+constexpr std::array<std::string_view, 4> use_names = {"surface", "solid", "hull", "compound"};
+constexpr std::array<std::string_view, 4> made_names = {"torus", "trefoil", "gear", "terrain"};
+
+Vec3d read_scale(files::TomlTable& table) {
+  const toml::node* node = table.node("scale");
+  return node != nullptr && node->is_array()
+             ? table.vector("scale", files::positive)
+             : Vec3d::Constant(table.number("scale", files::positive, 1.0));
+}
+
+geometry::Mesh read_scaled(const std::string& file, const Vec3d& scale) {
   geometry::Mesh mesh = geometry::read_mesh(file);
   for (Vec3d& v : mesh.vertices) {
-    v = v.cwiseProduct(Vec3d(x, y, z)).eval();
+    v = v.cwiseProduct(scale).eval();
     if (!v.allFinite()) {
       throw base::InputError(file, 0, "not finite at the scene's scale; expected a smaller one");
     }
@@ -29,11 +46,48 @@ geometry::Mesh read_scaled(const std::tuple<std::string, double, double, double>
   return mesh;
 }
 
-Shape hull_shape(std::shared_ptr<const Hull> hull) {
-  Shape shape;
-  shape.kind = ShapeKind::hull;
-  shape.hull = std::move(hull);
-  return shape;
+void expect_closed(files::TomlTable& table, std::string_view key, const geometry::Mesh& mesh,
+                   MeshUse use) {
+  if (use != MeshUse::solid) return;
+  const auto edge = geometry::open_edge(mesh.vertices, mesh.triangles);
+  if (!edge) return;
+  const auto& [from, to] = *edge;
+  table.fail(key, fmt::format("a solid, and the surface is open at the edge from [{}, {}, {}] to "
+                              "[{}, {}, {}]; expected a closed one, or as = \"surface\"",
+                              from[0], from[1], from[2], to[0], to[1], to[2]));
+}
+
+geometry::Mesh make_mesh(files::TomlTable& table, std::string_view type) {
+  const auto count = [&](std::string_view key, std::int64_t low, std::int64_t usual) {
+    return static_cast<std::size_t>(table.integer(key, low, 4096, usual));
+  };
+  const auto length = [&](std::string_view key, double usual, double high = 0.99) {
+    return table.number(key, {.low = 0.01, .high = high}, usual);
+  };
+  if (type == "torus") {
+    return geometry::torus(count("around", 3, 32), count("across", 3, 16),
+                           length("tube_radius", 0.25));
+  }
+  if (type == "trefoil") {
+    return geometry::trefoil(count("around", 12, 96), count("across", 3, 12),
+                             length("tube_radius", 0.25));
+  }
+  if (type == "terrain") {
+    const std::size_t cells = count("cells", 1, 64);
+    return geometry::terrain(cells, table.number("height", files::not_negative, 0.1),
+                             static_cast<std::uint64_t>(table.integer("seed", 0, INT64_MAX, 1)));
+  }
+  const std::size_t teeth = count("teeth", 3, 16);
+  const double root = length("root_radius", 0.8), hole = length("hole_radius", 0.3);
+  if (hole >= root) {
+    table.fail("hole_radius",
+               fmt::format("found {}; expected less than root_radius {}", hole, root));
+  }
+  return geometry::gear(teeth, root, hole, length("thickness", 0.3, 100));
+}
+
+TurnedShape turned(const ConcaveShape& shape) {
+  return {shape.hull, Mat3d::Identity(), shape.mesh, shape.body};
 }
 
 }  // namespace
@@ -58,30 +112,100 @@ std::filesystem::path ShapeReader::existing_file(files::TomlTable& table, std::s
   return file;
 }
 
-ShapeReader::MeshAndScale ShapeReader::mesh_and_scale(files::TomlTable& table) const {
-  const toml::node* scale_node = table.node("scale");
-  const Vec3d scale = scale_node != nullptr && scale_node->is_array()
-                          ? table.vector("scale", files::positive)
-                          : Vec3d::Constant(table.number("scale", files::positive, 1.0));
-  const std::filesystem::path file = existing_file(table, "mesh", "an OBJ, OFF, STL or PLY file");
-  return {file.lexically_normal().string(), scale.x(), scale.y(), scale.z()};
+bool is_concave_name(std::string_view type) {
+  return type == "compound" || std::ranges::find(made_names, type) != made_names.end();
 }
 
-TurnedShape ShapeReader::read_mesh_hull(files::TomlTable& table) {
-  const MeshAndScale key = mesh_and_scale(table);
-  TurnedShape& known = hulls_[key];
+MeshUses read_mesh_uses(files::TomlTable& table, std::optional<MeshUse> instead) {
+  MeshUses uses{{}, instead};
+  if (table.has("meshes")) uses.own = static_cast<MeshUse>(table.choice("meshes", use_names));
+  return uses;
+}
+
+MeshUse ShapeReader::use_of(files::TomlTable& table, MeshUse fallback) const {
+  const auto usual = static_cast<std::size_t>(uses_.own.value_or(fallback));
+  const auto own = static_cast<MeshUse>(table.choice("as", use_names, usual));
+  return uses_.instead.value_or(own);
+}
+
+ShapeReader::MeshKey ShapeReader::mesh_key(files::TomlTable& table) const {
+  const Vec3d scale = read_scale(table);
+  const std::filesystem::path file = existing_file(table, "mesh", "an OBJ, OFF, STL or PLY file");
+  return {file.lexically_normal().string(), scale.x(), scale.y(), scale.z(), use_of(table)};
+}
+
+TurnedShape ShapeReader::read_mesh(files::TomlTable& table) {
+  const MeshKey key = mesh_key(table);
+  ConcaveShape& known = meshes_[key];
   if (known.mesh == nullptr) {
-    known.mesh = std::make_shared<geometry::Mesh>(read_scaled(key));
-    known.shape = hull_shape(make_reduced_hull(known.mesh->vertices));
+    const auto& [file, x, y, z, use] = key;
+    geometry::Mesh mesh = read_scaled(file, {x, y, z});
+    if (use != MeshUse::hull && mesh.triangles.empty()) {
+      table.fail("mesh", "the mesh has no triangles; expected some, or as = \"hull\"");
+    }
+    expect_closed(table, "mesh", mesh, use);
+    known = mesh_shape(std::move(mesh), use);
   }
-  return known;
+  return turned(known);
+}
+
+// The vertices are rounded to floats at their scale, so that all libraries get the same body.
+TurnedShape ShapeReader::read_made(files::TomlTable& table, std::string_view type) const {
+  geometry::Mesh mesh = make_mesh(table, type);
+  const Vec3d scale = read_scale(table);
+  for (Vec3d& v : mesh.vertices) {
+    v = nearest_float(Vec3d(v.cwiseProduct(scale)));
+    if (!v.allFinite()) table.fail("scale", "the mesh is not finite; expected a smaller scale");
+  }
+  const bool closed = type != "terrain";
+  const MeshUse use = use_of(table, closed ? MeshUse::solid : MeshUse::surface);
+  expect_closed(table, "type", mesh, use);
+  return turned(mesh_shape(std::move(mesh), use));
+}
+
+void ShapeReader::add_parts(files::TomlTable& table, std::vector<Pose>& around,
+                            std::vector<ConvexPart>& parts) {
+  for (files::TomlTable& part : table.tables("parts")) {
+    files::TomlTable shape = part.inside("shape", part.where() + ": shape");
+    Pose pose = read_pose(part);
+    if (shape.contains("type") && shape.text("type") == "compound") {
+      around.push_back(pose);
+      add_parts(shape, around, parts);
+      around.pop_back();
+    } else {
+      const TurnedShape convex = read(shape);
+      if (convex.body != nullptr) {
+        shape.fail("type",
+                   "not convex, and in a compound; expected convex shapes and compounds, or a "
+                   "mesh as = \"hull\"");
+      }
+      pose.rotation = base::product(pose.rotation, convex.turn);
+      geometry::place_within(around, parts.emplace_back(ConvexPart{convex.shape, pose}));
+    }
+    shape.finish();
+    part.finish();
+  }
+}
+
+TurnedShape ShapeReader::read_compound(files::TomlTable& table) {
+  std::vector<Pose> around;
+  std::vector<ConvexPart> parts;
+  add_parts(table, around, parts);
+  const bool endless = std::ranges::any_of(
+      parts, [](const ConvexPart& part) { return part.shape.kind == ShapeKind::halfspace; });
+  if (parts.empty() || endless) {
+    table.fail("parts", parts.empty() ? "no parts; expected at least one"
+                                      : "a half-space in a compound; expected bounded parts");
+  }
+  return turned(compound_shape(std::move(parts)));
 }
 
 const std::vector<MeshPart>& ShapeReader::read_parts(files::TomlTable& table) {
-  const MeshAndScale key = mesh_and_scale(table);
+  const MeshKey key = mesh_key(table);
   const auto [found, is_new] = parts_.try_emplace(key);
   if (!is_new) return found->second;
-  for (geometry::Mesh& part : geometry::connected_parts(read_scaled(key))) {
+  const auto& [file, x, y, z, use] = key;
+  for (geometry::Mesh& part : geometry::connected_parts(read_scaled(file, {x, y, z}))) {
     Vec3d low = part.vertices.front(), high = low;
     for (const Vec3d& v : part.vertices) {
       low = low.cwiseMin(v);
@@ -89,8 +213,8 @@ const std::vector<MeshPart>& ShapeReader::read_parts(files::TomlTable& table) {
     }
     const Vec3d centre = 0.5 * low + 0.5 * high;
     for (Vec3d& v : part.vertices) v -= centre;
-    const Shape shape = hull_shape(make_reduced_hull(part.vertices));
-    found->second.push_back({shape, std::make_shared<geometry::Mesh>(std::move(part)), centre});
+    expect_closed(table, "mesh", part, use);
+    found->second.push_back({mesh_shape(std::move(part), use), centre});
   }
   if (found->second.empty()) {
     table.fail("parts", "the mesh has no triangles, so no parts; expected parts = false");
@@ -99,10 +223,16 @@ const std::vector<MeshPart>& ShapeReader::read_parts(files::TomlTable& table) {
 }
 
 TurnedShape ShapeReader::read(files::TomlTable& table) {
-  if (table.has("mesh")) return read_mesh_hull(table);
+  if (table.has("mesh")) return read_mesh(table);
+  std::vector<std::string_view> names(shape_names().begin(), shape_names().end());
+  names.insert(names.end(), made_names.begin(), made_names.end());
+  names.push_back("compound");
+  const std::size_t type = table.choice("type", names);
+  if (names[type] == "compound") return read_compound(table);
+  if (type >= shape_names().size()) return read_made(table, names[type]);
   TurnedShape turned;
   Shape& shape = turned.shape;
-  shape.kind = all_shape_kinds[table.choice("type", shape_names())];
+  shape.kind = all_shape_kinds[type];
   switch (shape.kind) {
     case ShapeKind::sphere: shape.radius = table.number("radius", files::not_negative); break;
     case ShapeKind::capsule:

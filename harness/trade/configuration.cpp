@@ -102,9 +102,13 @@ NarrowChain parse_chain(std::string_view text) {
   return campaign::select(narrow_phases(), names, "narrow phase");
 }
 
+std::string Configuration::phases_name() const {
+  return concave != nullptr ? concave->info.name : chain_name(narrow);
+}
+
 std::string Configuration::narrow_name() const {
-  if (narrow.empty()) return "none";
-  std::string name = fmt::format("{} {}", chain_name(narrow), to_string(settings.scalar));
+  if (narrow.empty() && concave == nullptr) return "none";
+  std::string name = fmt::format("{} {}", phases_name(), to_string(settings.scalar));
   if (settings.tolerance) name += fmt::format(" {}", *settings.tolerance);
   if (settings.max_iterations) name += fmt::format(" cap {}", *settings.max_iterations);
   return name;

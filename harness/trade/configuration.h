@@ -58,8 +58,13 @@ struct Configuration {
   BoxChoice boxes;
   const BroadPhaseEntry* broad = nullptr;  // null if the scene lists its pairs
   NarrowChain narrow;
+  // Takes whole bodies: a body that is represented by its mesh as that mesh, a solid if it is closed,
+  // others as compounds of their parts. The chain is empty then.
+  const ConcaveEntry* concave = nullptr;
   NarrowPhaseSettings settings;
 
+  // The name of the chain or of the concave phase, or "none".
+  std::string phases_name() const;
   std::string narrow_name() const;  // a name such as "gjk double 1e-06 cap 8" or "none"
   // A name such as "hull-16 / tight / sweep-and-prune / gjk double"; distinct configurations have
   // distinct names.

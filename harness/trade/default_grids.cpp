@@ -143,8 +143,14 @@ std::vector<TradeGrid> default_grids(Task task, const BroadPhaseEntry& broad) {
   broads.narrow = {quickest()};
   broads.scalars = {Precision::float64};
 
-  std::vector<TradeGrid> grids = {algorithms, tolerances, caps,
-                                  boxes,      broads,     representation_grid(broad)};
+  // Whether decompositions beat the meshes themselves.
+  TradeGrid whole;
+  whole.representations = {same_for_all(proxies::parse_representation("mesh")),
+                           same_for_all(proxies::parse_representation("parts"))};
+  whole.broad = {&broad};
+  whole.concave = {find_concave_phase("fused")};
+  std::vector<TradeGrid> grids = {
+      algorithms, tolerances, caps, boxes, broads, whole, representation_grid(broad)};
   // A verdict needs no number, so one tolerance is enough.
   if (task == Task::intersect) grids.erase(grids.begin() + 1);
   return grids;
@@ -154,7 +160,7 @@ std::vector<TradeGrid> grids_like(const Configuration& configuration, Task task)
   TradeGrid broad = grid_of(configuration);
   broad.boxes = box_choices();
   broad.broad = broad_entries();
-  if (configuration.narrow.empty()) return {broad};
+  if (configuration.narrow.empty()) return {broad};  // also of a concave phase
   TradeGrid narrow = grid_of(configuration);
   narrow.narrow = all_chains(task);
   narrow.scalars = {Precision::float64, Precision::float32};

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "harness/base/error.h"
+#include "harness/record/query_task.h"
+#include "harness/trade/pipeline/whole_bodies.h"
 
 namespace touchstone::trade {
 namespace {
@@ -59,6 +61,9 @@ class Expansion {
             configuration.broad = nullptr;
           }
           for (const NarrowChain& chain : grid.narrow) add(configuration, stand_ins, grid, chain);
+          for (const ConcaveEntry* entry : grid.concave) {
+            add(configuration, stand_ins, grid, *entry);
+          }
         }
       }
     }
@@ -101,6 +106,34 @@ class Expansion {
     }
   }
 
+  void add(Configuration configuration, const std::shared_ptr<const StandIns>& stand_ins,
+           const TradeGrid& grid, const ConcaveEntry& entry) {
+    if (std::ranges::all_of(frames_->mesh_of, [](const auto* mesh) { return mesh == nullptr; })) {
+      return leave_out("no body has a mesh: concave phases have nothing to do");
+    }
+    const std::optional<ConcaveTask> task = record::concave_task(record::query_task(task_));
+    configuration.concave = &entry;
+    for (const Precision scalar : grid.scalars) {
+      if (!task || !offers(entry, *task, scalar)) {
+        leave_out(fmt::format("{} has no {} for {}", entry.info.name, to_string(scalar),
+                              to_string(task_)));
+        continue;
+      }
+      configuration.settings = {.scalar = scalar};
+      const std::vector<ConcaveBody> bodies = whole_bodies(*frames_, *stand_ins, configuration);
+      const bool all =
+          entry.supports == nullptr || std::ranges::all_of(bodies, [&](const ConcaveBody& a) {
+            return std::ranges::all_of(bodies,
+                                       [&](const ConcaveBody& b) { return entry.supports(a, b); });
+          });
+      if (all) {
+        keep(configuration, stand_ins);
+      } else {
+        leave_out(fmt::format("{} does not take all bodies", entry.info.name));
+      }
+    }
+  }
+
   void keep(const Configuration& configuration, const std::shared_ptr<const StandIns>& stand_ins) {
     if (!names_.insert(configuration.name()).second) return leave_out("the same as another");
     points.points.push_back({configuration, stand_ins});
@@ -119,7 +152,11 @@ TradeGrid grid_of(const Configuration& configuration) {
   grid.representations = {configuration.representations};
   grid.boxes = {configuration.boxes};
   grid.broad = {configuration.broad};
-  grid.narrow = {configuration.narrow};
+  if (configuration.concave != nullptr) {
+    grid.concave = {configuration.concave};
+  } else {
+    grid.narrow = {configuration.narrow};
+  }
   grid.scalars = {configuration.settings.scalar};
   grid.tolerances = {configuration.settings.tolerance};
   grid.max_iterations = {configuration.settings.max_iterations};

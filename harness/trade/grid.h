@@ -16,6 +16,7 @@ struct TradeGrid {
   std::vector<BoxChoice> boxes = {{}};
   std::vector<const BroadPhaseEntry*> broad;
   std::vector<NarrowChain> narrow;
+  std::vector<const ConcaveEntry*> concave;  // beside these
   std::vector<Precision> scalars = {Precision::float64};
   std::vector<std::optional<double>> tolerances = {std::nullopt};  // empty: the algorithm's own
   std::vector<std::optional<int>> max_iterations = {std::nullopt};
@@ -33,7 +34,7 @@ struct GridPoints {
 // only those that take some pair. Combinations are left out if a body cannot be represented so, if
 // no narrow phase of the chain takes some pair, if one of them does not have the scalar, if there
 // is no narrow phase although a number is asked for or the scene lists its pairs, or if they equal
-// another.
+// another. Concave phases are left out if no body has a mesh, and for tasks that they do not have.
 GridPoints expand(std::span<const TradeGrid> grids, const SceneFrames& frames,
                   StandInLibrary& library, Task task);
 

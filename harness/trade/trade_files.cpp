@@ -83,14 +83,15 @@ std::string question(const TradeResult& result, const TradeRequest& request) {
 
 ConfigurationNames::ConfigurationNames(const Configuration& configuration)
     : representation(configuration.representations.name()),
-      narrow(chain_name(configuration.narrow)),
+      narrow(configuration.phases_name()),
       tolerance(configuration.settings.tolerance.value_or(Outcome::none)),
       max_iterations(configuration.settings.max_iterations) {
   if (configuration.broad != nullptr) {
     boxes = configuration.boxes.name();
     broad = configuration.broad->info.name;
   }
-  if (!configuration.narrow.empty()) scalar = configuration.settings.scalar;
+  if (!configuration.narrow.empty() || configuration.concave != nullptr)
+    scalar = configuration.settings.scalar;
 }
 
 TradeFiles::TradeFiles(const TradeRequest& request, const TradeScene& scene,

@@ -97,7 +97,14 @@ TradeGrid read_grid(files::TomlTable& table) {
     table.fail("broad", error.what());
   }
   if (grid.broad.empty()) table.fail("broad", "found none; expected at least one");
-  grid.narrow = {parse_chain("gjk")};
+  names = {"none"};
+  read_axis(table, "concave", names, text_of);
+  try {
+    grid.concave = campaign::select(concave_phases(), names, "concave phase");
+  } catch (const base::InputError& error) {
+    table.fail("concave", error.what());
+  }
+  if (grid.concave.empty()) grid.narrow = {parse_chain("gjk")};
   read_axis(table, "narrow", grid.narrow, chain_of);
   read_axis(table, "scalars", grid.scalars, [&](const toml::node& node) {
     return static_cast<Precision>(table.choice_of(node, "scalars", scalar_names));
@@ -147,8 +154,14 @@ std::string describe(const TradeGrid& grid) {
     text += line_of("broad", grid.broad,
                     [](const BroadPhaseEntry* b) { return in_quotes(b->info.name); });
   }
-  text +=
-      line_of("narrow", grid.narrow, [](const NarrowChain& c) { return in_quotes(chain_name(c)); });
+  if (!grid.narrow.empty()) {
+    text += line_of("narrow", grid.narrow,
+                    [](const NarrowChain& c) { return in_quotes(chain_name(c)); });
+  }
+  if (!grid.concave.empty()) {
+    text += line_of("concave", grid.concave,
+                    [](const ConcaveEntry* entry) { return in_quotes(entry->info.name); });
+  }
   text += line_of("scalars", grid.scalars,
                   [](Precision scalar) { return in_quotes(to_string(scalar)); });
   if (grid.tolerances.front()) {

@@ -155,6 +155,7 @@ std::vector<ConcaveEntry> concave_part_pairs() {
             "orientation predicates\", JGT 8(1), 2003",
             tested<test_by_guigue_devillers>)};
   for (ConcaveEntry& made : entries) {
+    made.takes_mid_phase = made.info.name != "fused";
     made.approximate = made.info.name == "moller" || made.info.name == "guigue-devillers";
     if (!made.approximate) continue;
     made.supports = both_are_meshes;

@@ -1,10 +1,13 @@
 // Exact concave: every part of one body against every part of the other, each in exact arithmetic.
 // Paper:   README.md states the problem of two convex bodies; a triangle is the hull of its corners.
 // Steps:   1. Make a solid of each triangle and each convex part in `bind`.
-//          2. Ask the oracle about every pair of parts, one at a time.
+//          2. Ask the oracle about every pair of parts, one at a time, unless their boxes, rounded
+//             outward, are apart.
 //          3. Where none share a point and a body is a solid mesh, count how often its surface winds
-//             around a point of each triangle or part of the other, in integers (exact_winding).
-//          4. distance: the least of all pairs' distances.
+//             around a point of each connected piece or part of the other, in integers
+//             (exact_winding).
+//          4. distance: the least of all pairs' distances, those with near boxes first, until the
+//             boxes of all others are further apart.
 // Departs: -
 // Fails:   is quadratic, so it is for bodies of some hundred parts. Curved parts can be unknown, as
 //          for `exact`. Poses of parts within turned compounds are rounded; where that hides a
@@ -13,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "algorithms/concave_phase.h"
@@ -30,7 +34,7 @@ using oracle::Solid;
 
 constexpr double none_found = std::numeric_limits<double>::infinity();
 
-Solid solid_of(const TriangleMesh& mesh, std::uint32_t triangle) {
+Shape shape_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   Hull hull;
   for (const std::uint32_t corner : mesh.triangles[triangle]) {
     hull.vertices.push_back(mesh.vertices[corner]);
@@ -38,7 +42,7 @@ Solid solid_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   Shape shape;
   shape.kind = ShapeKind::hull;
   shape.hull = std::make_shared<const Hull>(std::move(hull));
-  return Solid(shape);
+  return shape;
 }
 
 double reach_of_shape(const Shape& shape) {
@@ -52,28 +56,72 @@ double reach_of_shape(const Shape& shape) {
   return reach;
 }
 
+// A vertex of each piece of the mesh that hangs together by shared vertices.
+std::vector<std::uint32_t> one_of_each_piece(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& corners : mesh.triangles) {
+    parent[root(corners[1])] = root(corners[0]);
+    parent[root(corners[2])] = root(corners[0]);
+  }
+  std::vector<std::uint32_t> pieces;
+  for (const auto& corners : mesh.triangles) pieces.push_back(root(corners[0]));
+  std::ranges::sort(pieces);
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+  return pieces;
+}
+
 struct ExactBody {
   const ConcaveBody* given;
+  std::vector<Shape> shapes;
   std::vector<Solid> solids;
-  std::vector<double> reaches;  // of convex parts, in their own coordinates
+  std::vector<double> reaches;        // of convex parts, in their own coordinates
+  std::vector<std::uint32_t> pieces;  // of a mesh
 };
 
-// A part in its place, which may be off by `rounding` metres.
+// A part in its place, which may be off by `rounding` metres. The box holds it wherever it is.
 struct ExactPart {
   Body body;
   double rounding;
+  Aabb box;
 };
+
+Aabb grown(Aabb box, double by) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] = round_down(double{box.min[axis]} - by);
+    box.max[axis] = round_up(double{box.max[axis]} + by);
+  }
+  return box;
+}
+
+// At most the distance of any two points of the boxes.
+double gap(const Aabb& a, const Aabb& b) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double apart = std::max({0.0, double{a.min[axis]} - double{b.max[axis]},
+                                   double{b.min[axis]} - double{a.max[axis]}});
+    sum += apart * apart;
+  }
+  return std::sqrt(sum) * (1 - 0x1p-40);
+}
 
 class ExactConcave final : public ConcavePhase {
  public:
   void bind(std::span<const ConcaveBody> bodies) override {
     bodies_.clear();
     for (const ConcaveBody& given : bodies) {
-      ExactBody& body = bodies_.emplace_back(ExactBody{&given, {}, {}});
+      ExactBody& body = bodies_.emplace_back(ExactBody{&given, {}, {}, {}, {}});
       for (std::uint32_t i = 0; given.mesh && i < given.part_count(); ++i) {
-        body.solids.push_back(solid_of(*given.mesh, i));
+        body.shapes.push_back(shape_of(*given.mesh, i));
+        body.solids.emplace_back(body.shapes.back());
       }
+      if (given.mesh) body.pieces = one_of_each_piece(*given.mesh);
       for (const ConvexPart& part : given.parts) {
+        body.shapes.push_back(part.shape);
         body.solids.emplace_back(part.shape);
         body.reaches.push_back(reach_of_shape(part.shape));
       }
@@ -85,18 +133,14 @@ class ExactConcave final : public ConcavePhase {
     outcome.status = Status::ok;
     pairs.clear();
     bool undecided = false;
-    Outcome nearest;
-    nearest.lower = nearest.upper = none_found;
     const std::vector<ExactPart> parts_a = parts(a), parts_b = parts(b);
     for (std::uint32_t i = 0; i < parts_a.size(); ++i) {
       for (std::uint32_t j = 0; j < parts_b.size(); ++j) {
+        if (!overlap(parts_a[i].box, parts_b[j].box)) continue;
         const Answer answer = verdict(parts_a[i], parts_b[j]);
         if (answer == Answer::unknown) undecided = true;
         if (answer == Answer::touching || answer == Answer::overlapping) pairs.push_back({i, j});
         if (task != ConcaveTask::contacts && !pairs.empty()) break;
-        if (task == ConcaveTask::distance && answer == Answer::separated) {
-          consider(parts_a[i], parts_b[j], nearest);
-        }
       }
       if (task != ConcaveTask::contacts && !pairs.empty()) break;
     }
@@ -107,9 +151,9 @@ class ExactConcave final : public ConcavePhase {
     }
     const bool matters = task == ConcaveTask::contacts || outcome.answer == Answer::unknown;
     if (undecided && matters) outcome.status = Status::degenerate;
-    if (task == ConcaveTask::distance && outcome.answer == Answer::separated &&
-        nearest.upper < none_found) {
-      outcome = nearest;
+    if (task == ConcaveTask::distance && outcome.answer == Answer::separated && !parts_a.empty() &&
+        !parts_b.empty()) {
+      outcome = nearest(parts_a, parts_b);
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;
     }
@@ -121,13 +165,16 @@ class ExactConcave final : public ConcavePhase {
     std::vector<ExactPart> all;
     for (std::size_t i = 0; i < body.solids.size(); ++i) {
       if (body.given->mesh) {
-        all.push_back({Body(body.solids[i], placed.pose), 0});
+        all.push_back(
+            {Body(body.solids[i], placed.pose), 0, tight_box(body.shapes[i], placed.pose)});
         continue;
       }
       const ConvexPart& part = body.given->parts[i];
       const ComposedPose pose = composed(placed.pose, part.pose, body.reaches[i]);
       const double turned = placed.pose.rotation.cwiseAbs().rowwise().sum().maxCoeff();
-      all.push_back({Body(body.solids[i], pose.pose), pose.error + 2 * turned * part.rounding});
+      const double rounding = pose.error + 2 * turned * part.rounding;
+      all.push_back({Body(body.solids[i], pose.pose), rounding,
+                     grown(tight_box(part.shape, pose.pose), rounding)});
     }
     return all;
   }
@@ -152,6 +199,32 @@ class ExactConcave final : public ConcavePhase {
     nearest.lower = lower;
   }
 
+  // The distance of bodies of which no parts meet.
+  Outcome nearest(const std::vector<ExactPart>& parts_a, const std::vector<ExactPart>& parts_b) {
+    struct Near {
+      double gap;
+      std::uint32_t a, b;
+    };
+    std::vector<Near> near;
+    near.reserve(parts_a.size() * parts_b.size());
+    for (std::uint32_t i = 0; i < parts_a.size(); ++i) {
+      for (std::uint32_t j = 0; j < parts_b.size(); ++j) {
+        near.push_back({gap(parts_a[i].box, parts_b[j].box), i, j});
+      }
+    }
+    // A heap, as the first few are all that is needed.
+    const auto further = [](const Near& x, const Near& y) { return x.gap > y.gap; };
+    std::ranges::make_heap(near, further);
+    Outcome best;
+    best.lower = best.upper = none_found;
+    while (!near.empty() && !(near.front().gap > best.upper)) {
+      consider(parts_a[near.front().a], parts_b[near.front().b], best);
+      std::ranges::pop_heap(near, further);
+      near.pop_back();
+    }
+    return best;
+  }
+
   // True if a piece of `inner` is inside of `outer`'s surface; they do not meet on it.
   bool is_inside(const PlacedConcave& inner, const PlacedConcave& outer) const {
     const ConcaveBody &body = *bodies_[inner.body].given, &around = *bodies_[outer.body].given;
@@ -160,8 +233,8 @@ class ExactConcave final : public ConcavePhase {
       return oracle::exact_winding(*around.mesh, outer.pose, point, pose) != 0;
     };
     if (body.mesh) {
-      return std::ranges::any_of(body.mesh->triangles, [&](const auto& corners) {
-        return winds(body.mesh->vertices[corners[0]], inner.pose);
+      return std::ranges::any_of(bodies_[inner.body].pieces, [&](std::uint32_t vertex) {
+        return winds(body.mesh->vertices[vertex], inner.pose);
       });
     }
     return std::ranges::any_of(body.parts, [&](const ConvexPart& part) {

@@ -11,9 +11,10 @@
 #include <memory>
 
 #include "harness/base/error.h"
+#include "harness/campaign/check_pass/exact_answers.h"
 #include "harness/files/cases.h"
+#include "harness/files/concave/concave_cases.h"
 #include "harness/measure/phases/outcome_hash.h"
-#include "harness/process/queries/guarded_solve.h"
 
 namespace touchstone::campaign {
 namespace {
@@ -26,8 +27,13 @@ constexpr double longest_to_count = 10;  // seconds of a batch; a slower one cou
 struct ChildAnswer {
   double seconds = 0;
   std::uint64_t outcome_hash = 0;
-  std::int64_t contacts = 0, iterations = -1, support_calls = -1;
+  std::int64_t contacts = 0, part_pairs = -1, iterations = -1, support_calls = -1;
 };
+
+// The task by which numbers are graded.
+Task number_of(record::QueryTask task) {
+  return record::narrow_task(task).value_or(Task::intersect);
+}
 
 Status status_of(const grade::OutcomeFaults& faults, Origin origin) {
   if (faults.failed > 0) return Status::not_converged;
@@ -46,25 +52,21 @@ NarrowCheck::NarrowCheck(const RunContext& context, const measure::BlockInput& i
     : context_(&context), input_(&input), sets_(sets) {}
 
 void NarrowCheck::run() {
-  Executor executor(1);
-  grade::Reference oracle(input_->shapes, executor);
+  ExactAnswers oracle(*input_);
   Batch batch;
   const auto flush = [&] {
-    for (const measure::NarrowChoice& choice : context_->block->group->narrow) run(batch, choice);
+    for (const auto* choice : context_->block->group->choices()) run(batch, *choice);
     batch = {};
   };
   for (std::size_t frame = 0; frame < input_->frames.size(); ++frame) {
-    // The exact answer to a pair is equal for every task, so all sets of these pairs share one.
-    std::map<std::tuple<std::string, ShapeKind, ShapeKind>, std::size_t> known;
+    // Sets with the same exact answers share them.
+    std::map<std::string, std::size_t> known;
     for (std::size_t set = 0; set < sets_.size(); ++set) {
       const grade::PairGroup& pairs = sets_[set].frames[frame];
       if (pairs.size() == 0) continue;
-      const auto [at, is_new] = known.try_emplace({sets_[set].broad, pairs.kind_a, pairs.kind_b},
-                                                  batch.references.size());
-      if (is_new) {
-        batch.references.push_back(
-            oracle.solve(pairs, input_->shape_of, input_->frames[frame].poses));
-      }
+      const auto [at, is_new] =
+          known.try_emplace(ExactAnswers::key(sets_[set]), batch.references.size());
+      if (is_new) batch.references.push_back(oracle.solve(sets_[set], frame));
       batch.pieces.push_back({set, frame, batch.outcomes, at->second});
       batch.outcomes += pairs.size();
     }
@@ -86,10 +88,11 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
   std::vector<Piece> pieces;
   for (const Piece& piece : batch.pieces) {
     const measure::NarrowSet& set = sets_[piece.set];
-    if (!offers(*choice.entry, set.task) || out_.contains({&choice, piece.set}) ||
+    const measure::Offer offered = offer(choice, set, *input_);
+    if (offered == measure::Offer::none || out_.contains({&choice, piece.set}) ||
         !context_->admits(choice, set.broad, set.task, set.kind_name()))
       continue;
-    if (offers(*choice.entry, set.kind_a, set.kind_b, set.task)) {
+    if (offered == measure::Offer::taken) {
       pieces.push_back(piece);
       continue;
     }
@@ -102,6 +105,7 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
 
   const CampaignGroup& settings = *context_->block->group;
   process::SharedArray<Outcome> outcomes(batch.outcomes);
+  process::SharedArray<grade::PartList> lists(batch.outcomes);
   process::SharedArray<ChildAnswer> answers(pieces.size());
   process::SharedArray<char> lost(
       sets_.size());  // 1 while the set is being solved; it stays if that kills the child
@@ -119,9 +123,11 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
           lost[piece.set] = 1;
           const measure::SampleReply reply = sampler->sample(request(piece));
           answers[item] = {reply.durations.sum(), reply.outcome_hash, reply.contacts,
-                           reply.iterations, reply.support_calls};
+                           reply.part_pairs,      reply.iterations,   reply.support_calls};
           std::ranges::copy(sampler->outcomes(),
                             outcomes.span().begin() + static_cast<std::ptrdiff_t>(piece.first));
+          std::ranges::copy(sampler->lists(),
+                            lists.span().begin() + static_cast<std::ptrdiff_t>(piece.first));
           lost[piece.set] = 0;
         };
       });
@@ -150,12 +156,15 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
     result.seconds = answer.seconds;
     result.contact_count = answer.contacts;
     result.outcome_hash = base::to_hex(answer.outcome_hash);
+    result.part_pairs = answer.part_pairs;
     result.iterations = answer.iterations;
     result.support_calls = answer.support_calls;
     result.allocations = allocations[item].calls;
     result.allocated_bytes = allocations[item].bytes;
-    take(piece, choice, outcomes.span().subspan(piece.first, group(piece).size()), reference,
-         std::move(result));
+    const std::size_t size = group(piece).size();
+    const bool listed = sets_[piece.set].task == record::QueryTask::contacts;
+    take(piece, choice, outcomes.span().subspan(piece.first, size),
+         lists.span().subspan(piece.first, listed ? size : 0), reference, std::move(result));
   }
 }
 
@@ -179,11 +188,11 @@ std::vector<measure::Allocations> NarrowCheck::count_allocations(
 }
 
 void NarrowCheck::take(const Piece& piece, const measure::NarrowChoice& choice,
-                       std::span<const Outcome> outcomes,
+                       std::span<const Outcome> outcomes, std::span<const grade::PartList> lists,
                        const std::vector<grade::ReferenceOutcome>& reference,
                        record::RawRow result) {
-  const grade::OutcomeFaults faults =
-      grade::check_outcomes(outcomes, reference, sets_[piece.set].task, choice.settings.scalar);
+  const grade::OutcomeFaults faults = grade::check_outcomes(
+      outcomes, reference, number_of(sets_[piece.set].task), choice.settings.scalar, lists);
   result.pair_count = static_cast<std::int64_t>(outcomes.size());
   result.pair_hash = base::to_hex(measure::group_hash(group(piece)));
   if (result.iterations >= 0) {
@@ -198,9 +207,32 @@ void NarrowCheck::take(const Piece& piece, const measure::NarrowChoice& choice,
   result.worst_disagreement = faults.worst;
   if (faults.values > 0) result.worst_error = faults.worst_value_error;
   result.failures = faults.failed + faults.unanswered;
-  result.status = record::row_status(status_of(faults, choice.entry->info.origin));
+  result.status = record::row_status(status_of(faults, choice.info().origin));
   context_->findings->add(std::move(result));
   if (faults.disagree > 0) report(piece, choice, faults);
+}
+
+process::SolveBatch NarrowCheck::solver(const measure::NarrowChoice& choice,
+                                        const measure::NarrowSet& set) const {
+  if (!set.is_concave()) {
+    const std::shared_ptr<NarrowPhase> algorithm = choice.entry->make(choice.settings);
+    algorithm->bind(input_->shapes);
+    return [algorithm, task = *record::narrow_task(set.task)](const PairBatch& batch,
+                                                              std::span<Outcome> outcomes) {
+      algorithm->solve(task, batch, outcomes);
+    };
+  }
+  const std::shared_ptr<ConcavePhase> algorithm = choice.make_concave(input_->bodies);
+  return [this, algorithm, task = *record::concave_task(set.task)](const PairBatch& batch,
+                                                                   std::span<Outcome> outcomes) {
+    std::vector<IndexPair> pairs;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
+      pairs.clear();
+      algorithm->solve(task, {input_->shape_of[a], batch.pairs.poses[a]},
+                       {input_->shape_of[b], batch.pairs.poses[b]}, outcomes[i], pairs);
+    }
+  };
 }
 
 void NarrowCheck::lose(const Piece& piece, const measure::NarrowChoice& choice,
@@ -208,18 +240,13 @@ void NarrowCheck::lose(const Piece& piece, const measure::NarrowChoice& choice,
                        const std::string& words) {
   const measure::NarrowSet& set = sets_[piece.set];
   std::vector<Outcome> outcomes(group(piece).size());
-  const auto make = [&] {
-    std::unique_ptr<NarrowPhase> algorithm = choice.entry->make(choice.settings);
-    algorithm->bind(input_->shapes);
-    return algorithm;
-  };
   const CampaignGroup& settings = *context_->block->group;
-  process::solve_guarded(make, set.task,
+  process::solve_guarded([&] { return solver(choice, set); },
                          group(piece).batch(input_->shape_of, input_->frames[piece.frame].poses, 0,
                                             group(piece).size()),
                          outcomes, settings.time_limit, settings.memory_limit);
   grade::OutcomeFaults faults =
-      grade::check_outcomes(outcomes, reference, set.task, choice.settings.scalar);
+      grade::check_outcomes(outcomes, reference, number_of(set.task), choice.settings.scalar);
   const auto at = std::ranges::find_if(
       outcomes, [](const Outcome& outcome) { return process::is_lost(outcome.status); });
   if (at != outcomes.end()) {
@@ -242,13 +269,13 @@ void NarrowCheck::lose(const Piece& piece, const measure::NarrowChoice& choice,
 void NarrowCheck::report(const Piece& piece, const measure::NarrowChoice& choice,
                          const grade::OutcomeFaults& faults) {
   if (!reported_.insert({&choice, piece.set}).second) return;
-  const AlgorithmInfo& info = choice.entry->info;
+  const AlgorithmInfo& info = choice.info();
   const measure::NarrowSet& set = sets_[piece.set];
   record::Departure departure =
       context_->departure(info, choice.label(),
                           fmt::format("{}, {}, {}", context_->place(piece.frame), set.kind_name(),
                                       to_string(set.task)));
-  departure.known = departure.known || choice.entry->traits.approximate;
+  departure.known = departure.known || choice.is_approximate();
   if (faults.crashed > 0) {
     departure.what = fmt::format("{} of {} queries crashed", faults.crashed, group(piece).size());
   } else if (faults.timed_out > 0) {
@@ -258,11 +285,12 @@ void NarrowCheck::report(const Piece& piece, const measure::NarrowChoice& choice
   } else {
     const std::size_t i = *faults.worst_pair;
     departure.what =
-        fmt::format("{} of {} answers differ from {}'s, by up to {:.3g} m (bodies {} and {})",
-                    faults.disagree, faults.compared, grade::Reference::name(), faults.worst,
+        fmt::format("{} of {} answers differ from {}'s{} (bodies {} and {})", faults.disagree,
+                    faults.compared, grade::Reference::name(),
+                    set.is_concave() ? "" : fmt::format(", by up to {:.3g} m", faults.worst),
                     group(piece).first[i], group(piece).second[i]);
   }
-  if (choice.entry->traits.approximate) departure.what += "; approximate by design";
+  if (choice.is_approximate()) departure.what += "; approximate by design";
   if (choice.warm) departure.what += "; warm: the file has the bodies, not what was in memory";
   if (!info.known_defect.empty()) departure.what += "; known defect: " + info.known_defect;
   if (faults.worst_pair) departure.reproduction = write_case(piece, choice, *faults.worst_pair);
@@ -275,21 +303,23 @@ std::string NarrowCheck::write_case(const Piece& piece, const measure::NarrowCho
   const std::uint32_t a = group(piece).first[pair];
   const std::uint32_t b = group(piece).second[pair];
   const std::vector<Pose>& poses = input_->frames[piece.frame].poses;
-  const files::Case reproduction{
-      .id = fmt::format("{}-frame-{}-{}-{}", context_->scene->name, piece.frame, a, b),
-      .shape_a = input_->shapes[input_->shape_of[a]],
-      .shape_b = input_->shapes[input_->shape_of[b]],
-      .pose_a = poses[a],
-      .pose_b = poses[b]};
+  const std::string id = fmt::format("{}-frame-{}-{}-{}", context_->scene->name, piece.frame, a, b);
+  const std::uint32_t shape_a = input_->shape_of[a], shape_b = input_->shape_of[b];
+  const std::string reproduction =
+      sets_[piece.set].is_concave()
+          ? files::to_json(files::ConcaveCase{id, input_->bodies[shape_a], input_->bodies[shape_b],
+                                              poses[a], poses[b], false})
+          : files::to_json(files::Case{id, input_->shapes[shape_a], input_->shapes[shape_b],
+                                       poses[a], poses[b]});
   const std::filesystem::path file =
       context_->reproductions /
-      context_->file_name(fmt::format("{}-{}{}-{}-{}-{}.jsonl", choice.entry->info.name,
+      context_->file_name(fmt::format("{}-{}{}-{}-{}-{}.jsonl", choice.name(),
                                       to_string(choice.settings.scalar), choice.warm ? "-warm" : "",
                                       to_string(sets_[piece.set].task),
-                                      sets_[piece.set].kind_name(), reproduction.id));
+                                      sets_[piece.set].kind_name(), id));
   std::filesystem::create_directories(context_->reproductions);
   std::ofstream stream(file);
-  stream << files::to_json(reproduction) << '\n';
+  stream << reproduction << '\n';
   stream.flush();
   if (!stream) {
     throw base::InputError(file.string(), 0,

@@ -14,6 +14,7 @@
 #include "harness/measure/phases/block_input.h"
 #include "harness/measure/phases/narrow_sampler.h"
 #include "harness/process/isolate.h"
+#include "harness/process/queries/guarded_solve.h"
 
 namespace touchstone::campaign {
 
@@ -51,8 +52,10 @@ class NarrowCheck {
                                                       const measure::NarrowChoice& choice,
                                                       process::IsolationLimits limits) const;
   void take(const Piece& piece, const measure::NarrowChoice& choice,
-            std::span<const Outcome> outcomes,
+            std::span<const Outcome> outcomes, std::span<const grade::PartList> lists,
             const std::vector<grade::ReferenceOutcome>& reference, record::RawRow row);
+  process::SolveBatch solver(const measure::NarrowChoice& choice,
+                             const measure::NarrowSet& set) const;
   void lose(const Piece& piece, const measure::NarrowChoice& choice,
             const std::vector<grade::ReferenceOutcome>& reference, Status status,
             const std::string& words);

@@ -5,14 +5,13 @@
 #include <map>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "harness/base/clock.h"
 #include "harness/campaign/check_pass/check_broad.h"
 #include "harness/campaign/check_pass/check_narrow.h"
 #include "harness/campaign/check_pass/check_table.h"
-#include "harness/grade/outcome_check.h"
+#include "harness/campaign/check_pass/exact_answers.h"
 #include "harness/grade/pair_check.h"
 
 namespace touchstone::campaign {
@@ -84,19 +83,18 @@ double price_of_narrow(const RunContext& context, const measure::BlockInput& inp
   std::vector<measure::NarrowSet> some;
   // For each set: the number of further pairs, in multiples of those tried.
   std::map<std::string, double> more;
-  std::set<std::tuple<std::string, ShapeKind, ShapeKind>> priced;
-  Executor executor(1);
-  grade::Reference oracle(input.shapes, executor);
+  std::set<std::string> priced;
+  ExactAnswers oracle(input);
   double seconds = 0;
   for (const measure::NarrowSet& set : sets) {
     const measure::NarrowSet& few = some.emplace_back(some_of(set));
     const double times = static_cast<double>(set.pairs()) / static_cast<double>(few.pairs()) - 1;
     more[set_key(set)] = times;
-    // One exact answer serves all tasks.
-    if (!priced.insert({set.broad, set.kind_a, set.kind_b}).second) continue;
+    // One exact answer serves all tasks of narrow phases.
+    if (!priced.insert(ExactAnswers::key(set)).second) continue;
     const base::Stopwatch watch;
     for (std::size_t frame = 0; frame < few.frames.size(); ++frame) {
-      oracle.solve(few.frames[frame], input.shape_of, input.frames[frame].poses);
+      oracle.solve(few, frame);
     }
     seconds += times * watch.seconds();
   }

@@ -1,16 +1,12 @@
 // Meshes and compounds from JSON.
 #include "harness/files/concave/concave_json.h"
 
-#include <algorithm>
 #include <array>
-#include <map>
 #include <utility>
 #include <vector>
 
-#include "algorithms/core/bounds.h"
-#include "algorithms/core/mesh/common_frame.h"
-#include "algorithms/core/mesh/placed_box.h"
 #include "harness/files/shape_json.h"
+#include "harness/geometry/shapes/compound.h"
 
 namespace touchstone::files {
 namespace {
@@ -35,34 +31,14 @@ std::array<std::uint32_t, 3> read_triangle(const JsonNode& node, std::size_t ver
   return corners;
 }
 
-// A solid's surface goes along each edge one way as often as the other. Vertices in one place count
-// as one.
 void check_closed(const JsonNode& node, const TriangleMesh& mesh) {
-  std::map<std::array<double, 3>, std::uint32_t> number_of;
-  const auto number = [&](std::uint32_t vertex) {
-    const Vec3d& at = mesh.vertices[vertex];
-    const auto next = static_cast<std::uint32_t>(number_of.size());
-    return number_of.try_emplace({at[0], at[1], at[2]}, next).first->second;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const auto& corners : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t tail = number(corners[k]), head = number(corners[(k + 1) % 3]);
-      if (tail != head) balance[std::minmax(tail, head)] += tail < head ? 1 : -1;
-    }
-  }
-  for (const auto& [edge, sum] : balance) {
-    if (sum == 0) continue;
-    std::array<std::array<double, 3>, 2> ends{};
-    for (const auto& [at, vertex] : number_of) {
-      if (vertex == edge.first) ends[0] = at;
-      if (vertex == edge.second) ends[1] = at;
-    }
-    node.fail(fmt::format(
-        "\"solid\" is true, and the surface is open at the edge from [{},{},{}] to [{},{},{}]; "
-        "expected each edge as often in one direction as in the other",
-        ends[0][0], ends[0][1], ends[0][2], ends[1][0], ends[1][1], ends[1][2]));
-  }
+  const auto edge = geometry::open_edge(mesh.vertices, mesh.triangles);
+  if (!edge) return;
+  const auto& [from, to] = *edge;
+  node.fail(fmt::format(
+      "\"solid\" is true, and the surface is open at the edge from [{},{},{}] to [{},{},{}]; "
+      "expected each edge as often in one direction as in the other",
+      from[0], from[1], from[2], to[0], to[1], to[2]));
 }
 
 std::shared_ptr<const TriangleMesh> read_mesh(const JsonNode& node) {
@@ -113,13 +89,7 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around,
     }
     ConvexPart& part = parts.emplace_back();
     read_body(node, part.shape, part.pose);
-    const double reach = reach_of({{tight_box(part.shape, Pose{})}});
-    for (auto outer = around.rbegin(); outer != around.rend(); ++outer) {
-      const double stretch = outer->rotation.cwiseAbs().rowwise().sum().maxCoeff();
-      const ComposedPose placed = composed(*outer, part.pose, reach);
-      part.pose = placed.pose;
-      part.rounding = 2 * stretch * part.rounding + placed.error;
-    }
+    geometry::place_within(around, part);
   }
 }
 

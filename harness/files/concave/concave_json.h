@@ -7,6 +7,7 @@
 #include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/pose.h"
 #include "harness/files/json_line.h"
+#include "harness/files/shape_json.h"
 
 namespace touchstone::files {
 

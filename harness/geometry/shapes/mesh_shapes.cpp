@@ -2,6 +2,7 @@
 #include "harness/geometry/shapes/mesh_shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -96,6 +97,30 @@ Mesh ellipsoid_with_poles(const Vec3d& radii, std::size_t stacks, std::size_t sl
                         (i + 1) * slices + k);
     }
     mesh.triangles.push_back({at(last + k), at(last + next), at(top)});
+  }
+  return mesh;
+}
+
+Mesh gear(std::size_t teeth, double root_radius, double hole_radius, double thickness) {
+  // Of each tooth: the root's two ends and the tip's two ends, in parts of its share of the turn.
+  constexpr std::array<double, 4> places = {0, 0.3, 0.42, 0.88};
+  Mesh mesh;
+  for (std::size_t i = 0; i < 4 * teeth; ++i) {
+    const auto place = static_cast<double>(i / 4) + places[i % 4];
+    const auto turn = base::sin_cos_turns(place / static_cast<double>(teeth));
+    for (const double radius : {i % 4 < 2 ? root_radius : 1.0, hole_radius}) {
+      for (const double z : {thickness / 2, -thickness / 2}) {
+        mesh.vertices.push_back(nearest_float({radius * turn.cos, radius * turn.sin, z}));
+      }
+    }
+  }
+  // The four vertices at each place: outside above and below, inside above and below.
+  for (std::size_t i = 0; i < 4 * teeth; ++i) {
+    const std::size_t here = 4 * i, next = 4 * ((i + 1) % (4 * teeth));
+    add_quadrilateral(mesh, here + 2, here, next, next + 2);
+    add_quadrilateral(mesh, here + 1, here + 3, next + 3, next + 1);
+    add_quadrilateral(mesh, here, here + 1, next + 1, next);
+    add_quadrilateral(mesh, here + 3, here + 2, next + 2, next + 3);
   }
   return mesh;
 }

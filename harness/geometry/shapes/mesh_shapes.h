@@ -9,7 +9,7 @@
 
 namespace touchstone::geometry {
 
-// All coordinates are floats (metres), the same on every machine. The first three are closed, their
+// All coordinates are floats (metres), the same on every machine. All but the terrain are closed, their
 // triangles anticlockwise seen from outside. Counts are at least 3.
 
 // A ring around z: `around` quadrilaterals along the centre line of radius 1, `across` around the tube of
@@ -21,6 +21,10 @@ Mesh trefoil(std::size_t along, std::size_t across, double tube_radius);
 
 // The ellipsoid of these semi-axes: `stacks` rings of `slices` triangles. Both poles have `slices` triangles.
 Mesh ellipsoid_with_poles(const Vec3d& radii, std::size_t stacks, std::size_t slices);
+
+// A toothed wheel about z with a hole: its tips are 1 from the axis, the roots between the teeth
+// `root_radius` (between `hole_radius` and 1). 32 triangles a tooth.
+Mesh gear(std::size_t teeth, double root_radius, double hole_radius, double thickness);
 
 // A square of hills over [-1, 1] on x and y, `cells` by `cells` quadrilaterals; heights by
 // octaves of value noise from this seed.

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/pose.h"
 #include "harness/grade/pair_groups.h"
+#include "harness/record/query_task.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone::measure {
@@ -22,30 +24,47 @@ struct BlockFrame {
   FrameChange change() const { return {boxes, moved, inserted, removed}; }
 };
 
+// The bodies of all shapes, convex ones as compounds of one part.
+std::vector<ConcaveBody> concave_bodies(const scene::Scene& scene);
+
 struct BlockInput {
   // Plays the scene. The true pairs are those of overlapping_pairs, unless the scene lists its
   // pairs.
   BlockInput(const scene::Scene& scene, scene::BoxKind kind, bool with_poses);
 
+  bool is_concave(std::uint32_t body) const {
+    return !kinds.empty() && !kinds[shape_of[body]].empty();
+  }
+
   std::span<const Shape> shapes;  // the scene's shapes
+  // In a scene with bodies that are not convex, those of all shapes, convex ones as one part each,
+  // and the kinds of those that are not: "mesh", "solid" or "compound"; "" for convex ones.
+  std::vector<ConcaveBody> bodies;
+  std::vector<std::string_view> kinds;
   std::vector<std::uint32_t> shape_of;
   std::vector<BlockFrame> frames;
 };
 
-// The pairs of one kind that one source finds; narrow phases solve them together.
+// The pairs of one kind that one source finds; narrow phases or concave phases solve them together.
 struct NarrowSet {
   std::string broad;  // the broad phase that found the pairs; empty for the true ones
-  Task task;
-  ShapeKind kind_a, kind_b;
+  record::QueryTask task;
+  ShapeKind kind_a, kind_b;              // of the shapes; of concave pairs: those of the first one
   std::vector<grade::PairGroup> frames;  // one group for each frame, possibly without pairs
+  // Of pairs with a body that is not convex, which are for concave phases: "box-mesh". The kinds are
+  // in alphabetical order, and so are the bodies of a pair.
+  std::string concave_kind = {};
+
+  bool is_concave() const { return !concave_kind.empty(); }
 
   std::string kind_name() const;
   std::size_t pairs() const;  // the number over all frames
 };
 
-// Returns one set for each task and kind of pairs that occurs; `pairs` holds those of each frame.
+// Returns one set for each kind of pairs that occurs and task that phases for such pairs may have;
+// `pairs` holds those of each frame.
 std::vector<NarrowSet> narrow_sets(const BlockInput& input, const std::string& broad,
                                    std::span<const std::vector<IndexPair>> pairs,
-                                   std::span<const Task> tasks);
+                                   std::span<const record::QueryTask> tasks);
 
 }  // namespace touchstone::measure

@@ -11,7 +11,8 @@
 namespace touchstone::measure {
 namespace {
 
-constexpr std::size_t pairs_a_task = usual_batch;
+// A pair of bodies of many parts takes as long as hundreds of convex ones.
+constexpr std::size_t concave_pairs_a_task = 8;
 
 void count(std::int64_t& sum, std::int32_t value) {
   if (value >= 0) sum = std::max<std::int64_t>(sum, 0) + value;
@@ -26,8 +27,14 @@ NarrowSampler::NarrowSampler(const NarrowChoice& choice, const BlockInput& input
       executor_(&executor),
       starts_warm_(choice.warm),
       batch_(static_cast<std::size_t>(choice.batch)),
+      pairs_a_task_(choice.concave != nullptr ? concave_pairs_a_task : usual_batch),
+      found_(static_cast<std::size_t>(executor.width())),
       warm_(sets.size()) {
   for (int worker = 0; worker < executor.width(); ++worker) {
+    if (choice.concave != nullptr) {
+      concave_.push_back(choice.make_concave(input.bodies));
+      continue;
+    }
     instances_.push_back(choice.entry->make(choice.settings));
     instances_.back()->bind(input.shapes);
   }
@@ -49,8 +56,8 @@ std::vector<NarrowSampler::Chunk> NarrowSampler::cut(const NarrowSet& set,
   std::size_t total = 0;
   for (const std::size_t frame : frames) {
     const grade::PairGroup& group = set.frames[frame];
-    for (std::size_t begin = 0; begin < group.size(); begin += pairs_a_task) {
-      const std::size_t end = std::min(begin + pairs_a_task, group.size());
+    for (std::size_t begin = 0; begin < group.size(); begin += pairs_a_task_) {
+      const std::size_t end = std::min(begin + pairs_a_task_, group.size());
       chunks.push_back(
           {group.batch(input_->shape_of, input_->frames[frame].poses, begin, end), total + begin});
     }
@@ -59,16 +66,41 @@ std::vector<NarrowSampler::Chunk> NarrowSampler::cut(const NarrowSet& set,
   return chunks;
 }
 
-std::vector<std::size_t> NarrowSampler::tasks_of(std::span<const Chunk> chunks) {
+std::vector<std::size_t> NarrowSampler::tasks_of(std::span<const Chunk> chunks) const {
   std::vector<std::size_t> tasks = {0};
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     pairs += chunks[i].batch.size();
-    if (pairs < pairs_a_task && i + 1 < chunks.size()) continue;
+    if (pairs < pairs_a_task_ && i + 1 < chunks.size()) continue;
     tasks.push_back(i + 1);
     pairs = 0;
   }
   return tasks;
+}
+
+void NarrowSampler::solve(record::QueryTask task, const PairBatch& batch, std::size_t first,
+                          int worker) {
+  if (concave_.empty()) {
+    solve(*record::narrow_task(task), batch, std::span(outcomes_).subspan(first, batch.size()),
+          worker);
+  } else {
+    solve_concave(*record::concave_task(task), batch, first, worker);
+  }
+}
+
+void NarrowSampler::solve_concave(ConcaveTask task, const PairBatch& batch, std::size_t first,
+                                  int worker) {
+  const auto own = static_cast<std::size_t>(worker);
+  std::vector<IndexPair>& found = found_[own];
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
+    found.clear();
+    concave_[own]->solve(task, {batch.pairs.shape_of[a], batch.pairs.poses[a]},
+                         {batch.pairs.shape_of[b], batch.pairs.poses[b]}, outcomes_[first + i],
+                         found);
+    // The fingerprint takes a nanosecond a pair, and keeping the pairs would take more.
+    if (!lists_.empty()) lists_[first + i] = grade::part_list(found);
+  }
 }
 
 void NarrowSampler::solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes,
@@ -94,9 +126,7 @@ double NarrowSampler::solve_cold(const NarrowSet& set, std::span<const std::size
   // The capture is by reference, so that std::function does not allocate.
   const auto work = [&](std::size_t task, int worker) {
     for (std::size_t i = tasks[task]; i < tasks[task + 1]; ++i) {
-      const Chunk& chunk = chunks[i];
-      solve(set.task, chunk.batch, std::span(outcomes_).subspan(chunk.first, chunk.batch.size()),
-            worker);
+      solve(set.task, chunks[i].batch, chunks[i].first, worker);
     }
   };
   const base::Stopwatch watch;
@@ -107,7 +137,7 @@ double NarrowSampler::solve_cold(const NarrowSet& set, std::span<const std::size
 NarrowSampler::Warm& NarrowSampler::warm(std::uint32_t set) {
   std::optional<Warm>& warm = warm_[set];
   if (!warm) {
-    warm.emplace(Warm{WarmPairs(sets_[set], pairs_a_task), {}});
+    warm.emplace(Warm{WarmPairs(sets_[set], pairs_a_task_), {}});
     warm->memory.resize(warm->pairs.slots());
   }
   return *warm;
@@ -167,7 +197,7 @@ void NarrowSampler::play_up_to(Warm& warm, Task task, std::size_t frame) {
 
 double NarrowSampler::solve_warm(const SampleRequest& request,
                                  std::span<const std::size_t> frames) {
-  const Task task = sets_[request.set].task;
+  const Task task = *record::narrow_task(sets_[request.set].task);
   Warm& kept = warm(request.set);
   double seconds = 0;
   std::size_t first = 0;
@@ -191,6 +221,7 @@ SampleReply NarrowSampler::sample(const SampleRequest& request) {
   std::size_t total = 0;
   for (const std::size_t frame : frames) total += set.frames[frame].size();
   outcomes_.assign(total, Outcome{});
+  lists_.assign(set.task == record::QueryTask::contacts ? total : 0, grade::PartList{});
   SampleReply reply;
   reply.durations.add(to_string(record::Phase::narrow),
                       starts_warm_ ? solve_warm(request, frames) : solve_cold(set, frames));
@@ -202,9 +233,14 @@ SampleReply NarrowSampler::sample(const SampleRequest& request) {
     count(reply.iterations, outcome.iterations);
     count(reply.support_calls, outcome.support_calls);
   }
+  if (!lists_.empty()) reply.part_pairs = 0;
+  for (const grade::PartList& list : lists_) {
+    reply.part_pairs += static_cast<std::int64_t>(list.count);
+  }
   std::size_t first = 0;
   for (const std::size_t frame : frames) {
     const grade::PairGroup& group = set.frames[frame];
+    reply.outcome_hash += list_hash(group, std::span(lists_).subspan(lists_.empty() ? 0 : first));
     reply.pair_hash += group_hash(group);
     reply.outcome_hash += outcome_hash(group, std::span(outcomes_).subspan(first, group.size()));
     first += group.size();
@@ -223,8 +259,7 @@ Allocations NarrowSampler::count_allocations(const SampleRequest& request) {
   }
   const AllocationCount counted;
   for (const Chunk& chunk : chunks) {
-    solve(sets_[request.set].task, chunk.batch,
-          std::span(outcomes_).subspan(chunk.first, chunk.batch.size()), 0);
+    solve(sets_[request.set].task, chunk.batch, chunk.first, 0);
   }
   const Allocations allocations = counted.so_far();
   if (starts_warm_) warm(request.set).memory = std::move(before);

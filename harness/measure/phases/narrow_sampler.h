@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algorithms/core/executor/executor.h"
+#include "harness/grade/concave/part_list.h"
 #include "harness/measure/allocations.h"
 #include "harness/measure/phases/block_input.h"
 #include "harness/measure/phases/narrow_choice.h"
@@ -17,6 +18,8 @@
 
 namespace touchstone::measure {
 
+// Samples narrow phases, and concave phases as well: those solve a pair a call, and are always cold.
+//
 // The pairs of all frames of the window are one piece of work for the executor; the duration is
 // `narrow`. A warm narrow phase solves each frame with the memory that the frames before left, as
 // in a scene that is played again and again. Its memory is empty at frame 0, and if a window does
@@ -32,6 +35,8 @@ class NarrowSampler final : public Sampler {
   // Counts the heap calls of the queries, without a clock and in this thread.
   Allocations count_allocations(const SampleRequest& request);
   std::span<const Outcome> outcomes() const { return outcomes_; }  // those of the last sample
+  // The lists of pairs of parts of the last sample, if they were asked for; otherwise empty.
+  std::span<const grade::PartList> lists() const { return lists_; }
 
  private:
   struct Chunk {  // a run of pairs of one frame
@@ -45,11 +50,14 @@ class NarrowSampler final : public Sampler {
   };
   std::vector<std::size_t> frames_of(const SampleRequest& request) const;
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes, int worker);
+  // Solves the pairs whose first outcome has this index.
+  void solve(record::QueryTask task, const PairBatch& batch, std::size_t first, int worker);
+  void solve_concave(ConcaveTask task, const PairBatch& batch, std::size_t first, int worker);
 
   // Cuts the pairs of the frames into chunks.
   std::vector<Chunk> cut(const NarrowSet& set, std::span<const std::size_t> frames) const;
   // The first chunk of each of the executor's tasks, and the end of the last task.
-  static std::vector<std::size_t> tasks_of(std::span<const Chunk> chunks);
+  std::vector<std::size_t> tasks_of(std::span<const Chunk> chunks) const;
   double solve_cold(const NarrowSet& set, std::span<const std::size_t> frames);
 
   Warm& warm(std::uint32_t set);
@@ -66,9 +74,13 @@ class NarrowSampler final : public Sampler {
   std::span<const NarrowSet> sets_;
   Executor* executor_;
   bool starts_warm_;
-  std::size_t batch_;                                    // the greatest number of pairs of one call
+  std::size_t batch_;  // the greatest number of pairs of one call
+  std::size_t pairs_a_task_;
   std::vector<std::unique_ptr<NarrowPhase>> instances_;  // one for each worker
+  std::vector<std::unique_ptr<ConcavePhase>> concave_;   // or these
+  std::vector<std::vector<IndexPair>> found_;            // for each worker, with its memory
   std::vector<Outcome> outcomes_;
+  std::vector<grade::PartList> lists_;
   std::vector<std::optional<Warm>> warm_;  // one for each set, made at its first request
 };
 

@@ -8,6 +8,7 @@
 
 #include "algorithms/core/outcome.h"
 #include "harness/base/hash.h"
+#include "harness/grade/concave/part_list.h"
 #include "harness/grade/pair_groups.h"
 
 namespace touchstone::measure {
@@ -27,6 +28,19 @@ inline std::uint64_t outcome_hash(const grade::PairGroup& group,
       hash = base::mix(hash ^ std::bit_cast<std::uint64_t>(outcome.distance));
     }
     sum += hash;
+  }
+  return sum;
+}
+
+// The hash of the lists of pairs of parts, which is added to that of the outcomes; 0 without lists.
+// `lists` may go on behind those of the group.
+inline std::uint64_t list_hash(const grade::PairGroup& group,
+                               std::span<const grade::PartList> lists) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; !lists.empty() && i < group.size(); ++i) {
+    const std::uint64_t pair =
+        base::mix((std::uint64_t{group.first[i]} << 32) + group.second[i] + 1);
+    sum += base::mix(base::mix(pair ^ lists[i].count) ^ lists[i].hash);
   }
   return sum;
 }

@@ -2,6 +2,7 @@
 #include "harness/scene/generators/generators.h"
 
 #include <cmath>
+#include <map>
 
 namespace touchstone::scene {
 
@@ -13,6 +14,8 @@ std::span<const Generator> generators() {
       {"city", make_city},
       {"stack", make_stack},
       {"ground", make_ground},
+      {"terrain", make_terrain},
+      {"chain", make_chain},
       {"brownian", make_brownian},
       {"free_fall", make_free_fall},
       {"rotating_gravity", make_rotating_gravity},
@@ -31,14 +34,22 @@ Scene make_bodies(GeneratorInput& input, const ShapeMixDefaults& defaults, bool 
   base::Random shapes = input.random(GeneratorInput::shape_stream);
   const std::vector<TurnedShape> mix =
       make_shape_mix(input.table, input.shapes, count, defaults, shapes);
-  for (const TurnedShape& entry : mix) scene.add_shape(entry.shape, entry.mesh);
+  // A body that is not convex is one shape, however often the mix has it: algorithms prepare each.
+  std::map<const ConcaveBody*, std::uint32_t> known;
+  std::vector<std::uint32_t> shape_of;
+  for (const TurnedShape& entry : mix) {
+    const auto next = static_cast<std::uint32_t>(scene.shapes.size());
+    const bool is_new = entry.body == nullptr || known.emplace(entry.body.get(), next).second;
+    shape_of.push_back(is_new ? scene.add_shape(entry.shape, entry.mesh, entry.body)
+                              : known.at(entry.body.get()));
+  }
   const bool turn = input.table.boolean("turned", turned);
   base::Random poses = input.random(GeneratorInput::pose_stream);
   scene.bodies.resize(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     Body& body = scene.bodies[i];
-    body.shape = static_cast<std::uint32_t>(i % mix.size());
-    const Mat3d& axis = mix[body.shape].turn;
+    body.shape = shape_of[i % mix.size()];
+    const Mat3d& axis = mix[i % mix.size()].turn;
     body.pose.rotation = turn ? base::product(poses.rotation(), axis) : axis;
   }
   return scene;

@@ -80,6 +80,8 @@ Generated make_bullets(GeneratorInput& input);
 Generated make_spinners(GeneratorInput& input);
 Generated make_robot(GeneratorInput& input);
 Generated make_cards(GeneratorInput& input);
+Generated make_terrain(GeneratorInput& input);
+Generated make_chain(GeneratorInput& input);
 Generated make_pairs(GeneratorInput& input);
 
 }  // namespace touchstone::scene

@@ -44,7 +44,8 @@ std::span<const std::string_view> bounded_names() {
 }
 
 // Returns true if a table gives sizes or a mesh, and so a fixed shape.
-bool is_fixed(const files::TomlTable& table) {
+bool is_fixed(files::TomlTable& table) {
+  if (table.contains("type") && is_concave_name(table.text("type"))) return true;
   constexpr std::string_view sizes[] = {"mesh",  "radius",   "half_length", "half_extents",
                                         "radii", "vertices", "normal",      "offset"};
   return std::any_of(std::begin(sizes), std::end(sizes),
@@ -55,11 +56,14 @@ Ingredient read_ingredient(files::TomlTable table, ShapeReader& reader) {
   Ingredient ingredient;
   ingredient.weight = table.number("weight", files::positive, 1.0);
   ingredient.fixed = is_fixed(table);
-  if (!table.contains("mesh")) {
+  if (!ingredient.fixed) {
     ingredient.kind = all_shape_kinds[table.choice("type", bounded_names())];
   }
   if (ingredient.fixed) {
     ingredient.shape = reader.read(table);
+    if (ingredient.shape.shape.kind == ShapeKind::halfspace) {
+      table.fail("type", "a half-space among shapes that are scattered; expected a bounded shape");
+    }
   } else if (ingredient.kind == ShapeKind::hull) {
     ingredient.hull_points = table.integer("points", 4, 10'000, default_hull_points);
   } else if (ingredient.kind == ShapeKind::ellipsoid && table.contains("radii_normal")) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "algorithms/core/bounds.h"
+#include "harness/scene/concave_shape.h"
 
 namespace touchstone::scene {
 namespace {
@@ -82,7 +83,11 @@ double side_for_overlaps(double overlaps, std::span<const Aabb> boxes, const Reg
 std::vector<Aabb> boxes_at_origin(const Scene& scene) {
   std::vector<Aabb> boxes;
   for (const Body& body : scene.bodies) {
-    boxes.push_back(tight_box(scene.shapes[body.shape], {body.pose.rotation, Vec3d::Zero()}));
+    const Shape& shape = scene.shapes[body.shape];
+    const Pose turned{body.pose.rotation, Vec3d::Zero()};
+    const ConcaveBody* concave = scene.concave_of(body.shape);
+    boxes.push_back(concave != nullptr ? concave_box(*concave, shape, turned)
+                                       : tight_box(shape, turned));
   }
   return boxes;
 }

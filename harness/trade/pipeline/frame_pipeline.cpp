@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "harness/base/clock.h"
+#include "harness/measure/phases/narrow_choice.h"
+#include "harness/trade/pipeline/whole_bodies.h"
 
 namespace touchstone::trade {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 constexpr std::size_t queries_a_piece = 256;
 // The number of pairs in a task, for bodies with many parts.
 constexpr std::size_t pairs_a_task = 32;
+constexpr std::size_t whole_pairs_a_task = 8;
 
 double& of(StageSeconds& seconds, Stage stage) { return seconds[static_cast<std::size_t>(stage)]; }
 
@@ -46,6 +49,19 @@ FramePipeline::FramePipeline(const SceneFrames& frames, const StandIns& stand_in
       takes_[grade::PairGrouping::index(a, b)] = static_cast<std::uint8_t>(place[i]);
       break;
     }
+  }
+  if (configuration.concave != nullptr) {
+    bodies_ = whole_bodies(frames, stand_ins, configuration);
+    const measure::NarrowChoice choice =
+        measure::concave_choices(std::array{configuration.concave},
+                                 std::array{find_mid_phase(measure::usual_mid_phase)},
+                                 std::array{configuration.settings.scalar})
+            .at(0);
+    for (int worker = 0; worker < executor.width(); ++worker) {
+      concave_.push_back(choice.make_concave(bodies_));
+      counters_.shapes_bound += static_cast<std::int64_t>(bodies_.size());
+    }
+    found_.resize(concave_.size());
   }
   if (!stand_ins.plain) part_poses_.resize(stand_ins.shape_of.size());
   if (!stand_ins.single) placed_at_.assign(stand_ins.shape_of.size(), 0);
@@ -187,6 +203,7 @@ void FramePipeline::split_into_parts() {
 }
 
 void FramePipeline::solve() {
+  if (!concave_.empty()) return solve_whole();
   const base::Stopwatch watch;
   pieces_.clear();
   std::size_t total = 0;
@@ -222,6 +239,30 @@ void FramePipeline::solve() {
   counters_.witnesses += std::ranges::count_if(outcomes_, [](const Outcome& outcome) {
     return std::isfinite(outcome.witness_a.x()) || std::isfinite(outcome.witness_b.x());
   });
+}
+
+// Asks the concave phase about pairs of bodies, whose parts it finds itself.
+void FramePipeline::solve_whole() {
+  const base::Stopwatch watch;
+  const ConcaveTask task = task_ == Task::distance ? ConcaveTask::distance : ConcaveTask::intersect;
+  const std::vector<Pose>& poses = frames_->frames[frame_].poses;
+  answers_.resize(asked_.size());
+  const std::size_t tasks = (asked_.size() + whole_pairs_a_task - 1) / whole_pairs_a_task;
+  executor_->run(tasks, [&](std::size_t number, int worker) {
+    const auto own = static_cast<std::size_t>(worker);
+    const std::size_t end = std::min(asked_.size(), (number + 1) * whole_pairs_a_task);
+    for (std::size_t i = number * whole_pairs_a_task; i < end; ++i) {
+      const auto [a, b] = asked_[i];
+      Outcome outcome;
+      found_[own].clear();
+      concave_[own]->solve(task, {frames_->scene->bodies[a].shape, poses[a]},
+                           {frames_->scene->bodies[b].shape, poses[b]}, outcome, found_[own]);
+      answers_[i] = {asked_[i], outcome.answer, outcome.status, outcome.distance, 0};
+    }
+  });
+  reduced_ = true;
+  of(seconds_, Stage::narrow) = watch.seconds();
+  counters_.queries += static_cast<std::int64_t>(asked_.size());
 }
 
 void FramePipeline::reduce() {

@@ -84,6 +84,7 @@ class FramePipeline {
   void split_into_parts();
   void append_parts(const IndexPair& pair, std::vector<PartPair>& found) const;
   void solve();
+  void solve_whole();
   void place(std::uint32_t body, std::uint32_t part);
   void reduce();
 
@@ -99,6 +100,11 @@ class FramePipeline {
   // pair of kinds.
   std::vector<std::vector<std::unique_ptr<NarrowPhase>>> narrow_;
   std::array<std::uint8_t, grade::PairGrouping::kinds * grade::PairGrouping::kinds> takes_{};
+  // The bodies of a configuration with a concave phase, one for each shape, and its instances, one a
+  // worker, with memory for the parts that they find.
+  std::vector<ConcaveBody> bodies_;
+  std::vector<std::unique_ptr<ConcavePhase>> concave_;
+  std::vector<std::vector<IndexPair>> found_;
 
   std::size_t frame_ = 0;
   std::vector<IndexPair> pairs_, asked_;

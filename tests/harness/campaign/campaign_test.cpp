@@ -33,7 +33,7 @@ TEST_F(CampaignFile, HasDefaultsForEverythingButTheScenes) {
   const campaign::CampaignGroup& group = campaign.groups[0];
   EXPECT_EQ(group.scenes, std::vector{folder_.path() / "a.toml"});
   EXPECT_EQ(group.threads, std::vector{2});
-  EXPECT_EQ(group.tasks, std::vector{Task::intersect});
+  EXPECT_EQ(group.tasks, std::vector{record::QueryTask::intersect});
   EXPECT_GE(group.broad.size(), 5u);
   for (const measure::NarrowChoice& choice : group.narrow)
     EXPECT_TRUE(offers(*choice.entry, choice.settings.scalar));
@@ -64,7 +64,7 @@ TEST_F(CampaignFile, WarmStartsStandBesideColdOnes) {
       read("scenes = 'a.toml'\nexclude = [{narrow = 'gjk', warm = true, task = 'distance'}]");
   campaign::CampaignCell cell;
   cell.narrow = "gjk";
-  cell.task = Task::distance;
+  cell.task = record::QueryTask::distance;
   cell.warm = true;
   EXPECT_FALSE(ruled.groups[0].admits(cell));
   cell.warm = false;
@@ -196,7 +196,8 @@ time_limit = 0.5
   ASSERT_EQ(second.narrow.size(), 2u);
   EXPECT_EQ(second.narrow[1].settings.tolerance, 1e-6);
   EXPECT_EQ(second.narrow[1].settings.max_iterations, 9);
-  EXPECT_EQ(second.tasks, (std::vector{Task::distance, Task::penetration}));
+  EXPECT_EQ(second.tasks,
+            (std::vector{record::QueryTask::distance, record::QueryTask::penetration}));
   EXPECT_EQ(second.boxes, (std::vector{scene::BoxKind::loose, scene::BoxKind::tight}));
   EXPECT_EQ(second.pairing, campaign::Pairing::product);
   EXPECT_TRUE(second.rebuild);
@@ -295,7 +296,7 @@ TEST_F(CampaignFile, TheMeasuringIsAsTheFileSays) {
   EXPECT_EQ(group.memory_limit, std::size_t{8} << 20);
   EXPECT_EQ(group.time_limit, 0.25);
   ASSERT_EQ(group.include.size(), 1u);
-  EXPECT_EQ(group.include[0].task, Task::distance);
+  EXPECT_EQ(group.include[0].task, record::QueryTask::distance);
   ASSERT_EQ(group.exclude.size(), 2u);
   EXPECT_EQ(group.exclude[0].counts_above, 9);
   EXPECT_EQ(group.exclude[1].threads, 2);

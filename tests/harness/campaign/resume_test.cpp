@@ -42,7 +42,7 @@ class Resume : public testing::Test {
 
   // The identifying columns of rows, with the number of rows that have them.
   using Key =
-      std::tuple<record::RowKind, std::int64_t, std::string, std::optional<Task>, std::string, bool,
+      std::tuple<record::RowKind, std::int64_t, std::string, std::optional<record::QueryTask>, std::string, bool,
                  std::int64_t, std::int64_t, std::int64_t, std::int64_t, record::Phase, bool>;
   static std::map<Key, int> keys(const std::filesystem::path& out) {
     std::map<Key, int> keys;

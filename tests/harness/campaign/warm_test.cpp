@@ -22,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 
 measure::NarrowSet random_set(base::Random& random, std::uint32_t bodies, std::size_t frames) {
-  measure::NarrowSet set{"some", Task::intersect, ShapeKind::box, ShapeKind::hull, {}};
+  measure::NarrowSet set{"some", record::QueryTask::intersect, ShapeKind::box, ShapeKind::hull, {}};
   for (std::size_t frame = 0; frame < frames; ++frame) {
     grade::PairGroup group{ShapeKind::box, ShapeKind::hull, {}, {}};
     for (std::uint32_t a = 0; a < bodies; ++a) {
@@ -103,7 +103,7 @@ TEST_F(Warm, AnswersDoNotDependOnTheBatch) {
   const scene::Scene scene = scene::load_scene(folder_.path() / "pairs.toml");
   const measure::BlockInput input(scene, scene::BoxKind::tight, true);
   const std::vector<std::vector<IndexPair>> pairs(frames, scene.pairs);
-  constexpr std::array tasks = {Task::distance, Task::intersect};
+  constexpr std::array tasks = {record::QueryTask::distance, record::QueryTask::intersect};
   const std::vector<measure::NarrowSet> sets = measure::narrow_sets(input, "", pairs, tasks);
   Executor two(2);
   for (const bool warm : {false, true}) {
@@ -132,7 +132,7 @@ TEST_F(Warm, AnswersDoNotDependOnTheWindow) {
   std::vector<std::vector<IndexPair>> pairs(frames, scene.pairs);
   pairs[5].resize(300);
   std::ranges::reverse(pairs[7]);
-  constexpr std::array tasks = {Task::distance, Task::intersect};
+  constexpr std::array tasks = {record::QueryTask::distance, record::QueryTask::intersect};
   const std::vector<measure::NarrowSet> sets = measure::narrow_sets(input, "", pairs, tasks);
   const measure::NarrowChoice choice{
       .entry = find_narrow_phase("gjk"), .settings = {}, .warm = true};
@@ -193,7 +193,7 @@ TEST_F(Warm, StandsBesideColdOnesInRowsAndTables) {
     } else {
       ++samples[record::label_of(row)];
       EXPECT_GE(row.frame, 1);
-      if (row.task == Task::distance && row.pair_kind == "hull-hull") {
+      if (row.task == record::QueryTask::distance && row.pair_kind == "hull-hull") {
         supports[record::label_of(row)] += row.support_calls;
         queries[record::label_of(row)] += row.pair_count;
       }

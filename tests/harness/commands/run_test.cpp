@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <map>
+#include <set>
 #include <string>
 
 #include "tests/harness/campaign/stopped_run.h"
@@ -266,6 +267,39 @@ TEST_F(StoppedRun, TwoAtOnceAreRefused) {
   expect_refused("another run is at work");
   close(folder);
   expect_whole("--resume");
+}
+
+TEST_F(RunCommand, RunsConcavePhasesOnAScene) {
+  folder_.write("gears.toml",
+                "generator = 'uniform'\ncount = 20\nframes = 2\noverlaps = 5\n"
+                "shapes = [{type = 'gear', teeth = 5}]\n");
+  folder_.write("gears_run.toml",
+                "scenes = 'gears.toml'\nbroad = 'packed-rtree'\nconcave = 'fused'\n"
+                "tasks = 'contacts'\nthreads = [1, 2]\nseconds = 0.3\n");
+  const Ran ran = run_program("run " + path("gears_run.toml") + " --noisy --out " + path("out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  std::map<std::string, std::set<std::string>> hashes;  // by frame
+  std::set<std::string> sampled;
+  for (const auto& row : read_rows(folder_.path() / "out/raw.csv",
+                                   {"narrow", "kind", "threads", "frame", "outcome_hash",
+                                    "part_pairs", "disagreements", "pair_kind"})) {
+    if (row[0].empty()) continue;
+    EXPECT_EQ(row[0], "fused");
+    EXPECT_EQ(row[7], "solid-solid");
+    EXPECT_GT(std::stoi(row[5]), 0);
+    if (row[1] == "sample") {
+      sampled.insert(row[2]);
+    } else {
+      EXPECT_EQ(row[6], "0");
+      hashes[row[3]].insert(row[4]);
+    }
+  }
+  EXPECT_EQ(sampled, (std::set<std::string>{"1", "2"}));
+  ASSERT_EQ(hashes.size(), 2u);
+  for (const auto& [frame, of_frame] : hashes) EXPECT_EQ(of_frame.size(), 1u) << frame;
+  const Ran drawn = run_program("draw " + path("gears.toml") + " --out " + path("gears.png"));
+  EXPECT_EQ(drawn.status, 0) << drawn.text;
+  EXPECT_THAT(drawn.text, testing::HasSubstr("20 bodies"));
 }
 
 TEST_F(RunCommand, DrawsAPicture) {

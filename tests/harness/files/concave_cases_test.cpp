@@ -78,6 +78,25 @@ TEST_F(ConcaveCases, Compounds) {
   EXPECT_TRUE(read(R"({"shape":{"type":"compound","parts":[]}})").a.parts.empty());
 }
 
+TEST_F(ConcaveCases, AreWrittenAsTheyAreRead) {
+  for (
+      const char* body :
+      {R"({"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0.1]],"triangles":[[0,1,2]]},"translation":[1,2,0.3]})",
+       R"({"shape":{"type":"compound","parts":[{"shape":{"type":"sphere","radius":0.1},"translation":[0.7,0,0]}]}})",
+       ball}) {
+    const files::ConcaveCase first = read(body);
+    const auto cases =
+        files::read_concave_cases(folder.write("again.jsonl", to_json(first) + "\n"));
+    ASSERT_EQ(cases.size(), 1u);
+    const files::ConcaveCase& again = cases[0];
+    EXPECT_EQ(again.id, "x");
+    EXPECT_EQ(again.pose_a.translation, first.pose_a.translation);
+    EXPECT_EQ(again.a.part_count(), first.a.part_count());
+    EXPECT_EQ(again.a.mesh == nullptr, first.a.mesh == nullptr);
+    EXPECT_EQ(to_json(again), to_json(first));
+  }
+}
+
 TEST_F(ConcaveCases, RoundedPlacesSaySo) {
   const auto c =
       read(R"({"shape":{"type":"compound","parts":[{"shape":{"type":"compound","parts":[)"

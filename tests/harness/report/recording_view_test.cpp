@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -91,6 +93,40 @@ TEST(RecordingView, HasTheVerdictsAndDistancesOfItsPairs) {
     of_ball.push_back(ball);
   }
   EXPECT_EQ(of_ball, (std::vector<int>{-1, -1, 1, 2}));
+}
+
+// Two linked rings that do not touch, whose hulls overlap, and a box in one of them.
+TEST(RecordingView, AsksConcavePhasesAboutMeshes) {
+  const TemporaryFolder folder;
+  const OrderedJson view = recording_view(request_for(folder.write("rings.toml", R"(
+body = [
+  {shape = {type = "torus", around = 16, across = 8, tube_radius = 0.2}},
+  {shape = {type = "torus", around = 16, across = 8, tube_radius = 0.2}, rotation = [1, 0, 0, 0, 0, -1, 0, 1, 0], translation = [1, 0, 0]},
+  {shape = {type = "box", half_extents = [0.3, 0.3, 0.3]}, translation = [-1, 0, 0]},
+]
+)")));
+  EXPECT_EQ(view["shapes"][0]["faces"].size(), 256U);
+  const std::vector<std::string> names = view["algorithms"];
+  const auto at = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  };
+  ASSERT_LT(at("fused"), names.size());
+  ASSERT_LT(at("part-pairs wide-bvh"), names.size());
+  const OrderedJson& frame = view["pairs"][0];
+  const auto bodies = numbers_of<std::uint32_t>(std::string(frame["bodies"]));
+  const auto verdicts = bytes_of(std::string(frame["verdicts"]));
+  const auto distances = numbers_of<double>(std::string(frame["distances"]));
+  ASSERT_EQ(distances.size(), 2U);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const bool linked = bodies[2 * i + 1] == 1;
+    EXPECT_EQ(verdicts[i * names.size() + at("fused")], linked ? 0 : 2);
+    EXPECT_EQ(verdicts[i * names.size() + at("part-pairs wide-bvh")], linked ? 0 : 2);
+    EXPECT_EQ(verdicts[i * names.size() + at("gjk")], 3);  // it is not asked
+    EXPECT_EQ(std::isnan(distances[i]), !linked);
+    if (linked) {
+      EXPECT_NEAR(distances[i], 0.6, 0.1);
+    }
+  }
 }
 
 TEST(RecordingView, StopsAfterTheMostFrames) {

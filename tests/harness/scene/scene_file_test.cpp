@@ -205,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"\ngenerator = \"uniform\"\nimport = \"x.json\"\n", 3, "one of"},
         Fault{"generator = \"uniform\"\ncuont = 3\n", 2, "unknown key cuont; expected one of"},
         Fault{"frames = 2\ngenerator = \"unifrom\"\n", 2,
-              "found \"unifrom\"; expected one of uniform, clustered, mixed, city, stack, ground, "
+              "found \"unifrom\"; expected one of uniform, clustered, mixed, city, stack, ground, terrain, chain, "
               "brownian, free_fall, rotating_gravity"},
         Fault{"generator = 3\n", 1, "found 3; expected one of"},
         Fault{"import = \"x.json\"\n", 1, "no file"}, Fault{"import = 1\n", 1, "a text"}));

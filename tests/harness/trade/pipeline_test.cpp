@@ -92,6 +92,49 @@ TEST(TradePipeline, WhatHoldsTheBodyMissesNoContact) {
   EXPECT_GT(false_positives, 100);
 }
 
+// Rings that are linked and do not touch, then rings that do.
+const std::string rings = R"(
+frames = 2
+body = [
+  {shape = {type = "torus", tube_radius = 0.2}},
+  {shape = {type = "torus", tube_radius = 0.2}, rotation = [1, 0, 0, 0, 0, -1, 0, 1, 0], translation = [1, 0, 0], velocity = [0.1, 0, 0]},
+  {shape = {type = "torus", tube_radius = 0.2}, translation = [0, 8, 0]},
+  {shape = {type = "torus", tube_radius = 0.2}, rotation = [1, 0, 0, 0, 0, -1, 0, 1, 0], translation = [1.9, 8, 0], velocity = [0.1, 0, 0]},
+]
+)";
+
+TEST(TradePipeline, AConcavePhaseTakesTheMeshItself) {
+  for (const Task task : {Task::intersect, Task::distance}) {
+    World world(rings, task);
+    const std::vector<trade::FrameTruth> truth = world.truth();
+    trade::Representing as_hull = simple_representing();
+    as_hull.represent = [](const Shape& hull, const geometry::Mesh*,
+                           const proxies::Representation&) {
+      return std::vector<proxies::Part>{{hull, {}}};
+    };
+    trade::StandInLibrary library(world.frames, as_hull);
+    trade::TradeGrid grid = grid_with("gjk");
+    grid.narrow.clear();
+    grid.concave = {find_concave_phase("fused")};
+    for (const proxies::Form form : {proxies::Form::mesh, proxies::Form::as_given}) {
+      grid.representations = {all_as(form)};
+      const trade::TradePoint point = point_of(grid, world.frames, library, task);
+      EXPECT_EQ(point.configuration.narrow_name(), "fused double");
+      const trade::Evaluation found =
+          trade::evaluate(world.frames, {&point, 1}, truth, task).front();
+      ASSERT_TRUE(found.ok()) << found.words;
+      EXPECT_EQ(found.errors.contacts, 2);
+      EXPECT_EQ(found.errors.false_negatives, 0);
+      // The hulls of linked rings overlap.
+      EXPECT_EQ(found.errors.false_positives, form == proxies::Form::mesh ? 0 : 2);
+      if (task == Task::distance && form == proxies::Form::mesh) {
+        EXPECT_LT(found.errors.value.greatest, 1e-6);
+        EXPECT_GT(found.errors.values, 0);
+      }
+    }
+  }
+}
+
 TEST(TradePipeline, WithoutANarrowPhaseEveryPairOfBoxesIsAContact) {
   World world(mixed);
   const std::vector<trade::FrameTruth> truth = world.truth();

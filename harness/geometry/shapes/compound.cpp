@@ -1,0 +1,84 @@
+// Places parts of compounds, and puts their surfaces together.
+#include "harness/geometry/shapes/compound.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "algorithms/core/bounds.h"
+#include "algorithms/core/mesh/common_frame.h"
+#include "algorithms/core/mesh/placed_box.h"
+#include "algorithms/hull/convex_hull.h"
+#include "harness/geometry/tessellation.h"
+
+namespace touchstone::geometry {
+namespace {
+
+constexpr int polytope_level = 3;
+
+void add_triangle(Mesh& mesh, std::size_t first, std::size_t a, std::size_t b, std::size_t c) {
+  const auto at = [first](std::size_t i) { return static_cast<std::uint32_t>(first + i); };
+  mesh.triangles.push_back({at(a), at(b), at(c)});
+}
+
+}  // namespace
+
+void place_within(std::span<const Pose> around, ConvexPart& part) {
+  const double reach = reach_of({{tight_box(part.shape, Pose{})}});
+  for (auto outer = around.rbegin(); outer != around.rend(); ++outer) {
+    const double stretch = outer->rotation.cwiseAbs().rowwise().sum().maxCoeff();
+    const ComposedPose placed = composed(*outer, part.pose, reach);
+    part.pose = placed.pose;
+    part.rounding = 2 * stretch * part.rounding + placed.error;
+  }
+}
+
+Mesh surface_of(std::span<const ConvexPart> parts) {
+  Mesh mesh;
+  for (const ConvexPart& part : parts) {
+    if (part.shape.kind == ShapeKind::halfspace) continue;
+    std::shared_ptr<const Hull> hull = as_polytope(part.shape, polytope_level).hull;
+    if (hull->faces.empty() && hull->dimension == 3) hull = make_hull(hull->vertices);
+    const std::size_t first = mesh.vertices.size();
+    for (const Vec3d& vertex : hull->vertices) mesh.vertices.push_back(part.pose(vertex));
+    for (const Hull::Face& face : hull->faces) {
+      for (std::size_t i = 1; i + 1 < face.loop.size(); ++i) {
+        add_triangle(mesh, first, face.loop[0], face.loop[i], face.loop[i + 1]);
+      }
+    }
+    if (!hull->faces.empty()) continue;
+    // A flat hull has no faces. The triangles of one vertex and any two others cover it.
+    for (std::size_t i = 1; i < hull->vertices.size(); ++i) {
+      for (std::size_t k = i + 1; k < hull->vertices.size(); ++k) {
+        add_triangle(mesh, first, 0, i, k);
+      }
+    }
+  }
+  return mesh;
+}
+
+std::optional<std::pair<Vec3d, Vec3d>> open_edge(
+    std::span<const Vec3d> vertices, std::span<const std::array<std::uint32_t, 3>> triangles) {
+  std::map<std::array<double, 3>, std::uint32_t> number_of;
+  std::vector<Vec3d> places;
+  const auto number = [&](std::uint32_t vertex) {
+    const Vec3d& at = vertices[vertex];
+    const auto next = static_cast<std::uint32_t>(places.size());
+    const auto [known, is_new] = number_of.try_emplace({at[0], at[1], at[2]}, next);
+    if (is_new) places.push_back(at);
+    return known->second;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+  for (const auto& corners : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t tail = number(corners[k]), head = number(corners[(k + 1) % 3]);
+      if (tail != head) balance[std::minmax(tail, head)] += tail < head ? 1 : -1;
+    }
+  }
+  for (const auto& [edge, sum] : balance) {
+    if (sum != 0) return {{places[edge.first], places[edge.second]}};
+  }
+  return {};
+}
+
+}  // namespace touchstone::geometry

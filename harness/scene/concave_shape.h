@@ -1,0 +1,36 @@
+// Shapes of bodies that are not convex, with the hull that stands for them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "algorithms/core/aabb.h"
+#include "algorithms/core/mesh/concave_body.h"
+#include "algorithms/core/shape.h"
+#include "harness/geometry/mesh.h"
+
+namespace touchstone::scene {
+
+// What a mesh is in a scene.
+enum class MeshUse : std::uint8_t {
+  surface,   // its triangles
+  solid,     // these and what they wind around
+  hull,      // its convex hull
+  compound,  // the convex hulls of its connected parts, as one body
+};
+
+struct ConcaveShape {
+  Shape hull;
+  std::shared_ptr<const geometry::Mesh> mesh;
+  std::shared_ptr<const ConcaveBody> body;  // null: the hull is the body
+};
+
+ConcaveShape mesh_shape(geometry::Mesh mesh, MeshUse use);
+ConcaveShape compound_shape(std::vector<ConvexPart> parts);
+
+// The tight box of a body that has triangles or parts, rounded outward.
+Aabb concave_box(const ConcaveBody& body, const Shape& hull, const Pose& pose);
+// As loose_reach.
+double concave_reach(const ConcaveBody& body, const Shape& hull, const Mat3d& rotation);
+
+}  // namespace touchstone::scene
