@@ -16,6 +16,8 @@
 //          times the mesh's size away, every triangle is tested.
 // Cost:    O(log n) a ray where triangles are small; a ray at an edge or a vertex costs some
 //          microseconds more. 46 bytes a triangle besides the mesh.
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "algorithms/kernels/rays/ray_walk.h"
@@ -31,31 +33,19 @@ class WideBvhCast final : public RayCast {
   void bind(const TriangleMesh& mesh) override { mesh_.emplace(mesh, scalar_); }
 
   void cast(RayTask task, std::span<const Ray> rays, std::span<RayHit> hits) override {
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = answer(task, rays[i]);
+    constexpr std::size_t most = ray_tree::RayBlock::most;
+    std::array<Ray, most> rounded;
+    for (std::size_t first = 0; first < rays.size(); first += most) {
+      std::span<const Ray> some = rays.subspan(first, std::min(most, rays.size() - first));
+      if (scalar_ == Precision::float32) {
+        std::ranges::transform(some, rounded.begin(), rounded_to_float);
+        some = std::span(rounded).first(some.size());
+      }
+      ray_tree::cast_each(*mesh_, task, some, hits.subspan(first, some.size()));
+    }
   }
 
  private:
-  RayHit answer(RayTask task, const Ray& given) const {
-    const Ray ray = scalar_ == Precision::float64 ? given : rounded_to_float(given);
-    if (!is_proper(ray)) return improper_hit();
-    RayQuery query(ray);
-    if (mesh_->triangles() == 0) return query.hit();
-    ray_tree::LocalRay local;
-    if (localise(*mesh_, ray, local)) {
-      walk(*mesh_, local, task, query);
-    } else {
-      test_all(task, query);
-    }
-    return query.hit();
-  }
-
-  void test_all(RayTask task, RayQuery& query) const {
-    for (std::uint32_t k = 0; k < mesh_->triangles(); ++k) {
-      const auto [a, b, c] = mesh_->corners(k);
-      if (query.offer(k, a, b, c) && task == RayTask::any) return;
-    }
-  }
-
   Precision scalar_;
   std::optional<ray_tree::RayMesh> mesh_;
 };
