@@ -31,7 +31,7 @@ struct alignas(64) RayBlock {
 
   // For boxes.
   std::array<Each<float>, 3> near_origin, far_origin, inverse;
-  std::array<Each<std::uint32_t>, 3> backward;  // 1 where the upper plane is met first, or 0
+  std::array<unsigned, 3> backward;  // the rays that meet upper planes first, as bits
 
   // For triangles: the axes with the direction's greatest last; rays on them, as they are cast and in
   // the frame; and the shear.

@@ -15,7 +15,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void store_at(RayBlock::Each<double>& to, st
 // Doubles on their way to floats.
 struct Unrounded {
   std::array<RayBlock::Each<double>, 3> along, near, far, origin;
-  RayBlock::Each<double> shear_x, shear_y, off, tau_off, tau_end, sure_begin, sure_end;
+  RayBlock::Each<double> shear_x, shear_y, off, tau_off, tau_end, sure_begin, sure_end, z;
 };
 
 // The way to where a ray that begins far away comes near the mesh, which lies within 1 of the frame's
@@ -95,12 +95,14 @@ TOUCHSTONE_TARGET inline void localise_part(const RayMesh& mesh, std::size_t par
   store_at(block.moved, part, moved);
   // Of the origin in the frame: two roundings at first, and four of the way that it was moved.
   const Wide off = Doubles::broadcast(8 * unit) * (reach + Doubles::broadcast(2) * moved);
-  // 2^-50 is more than a component that is left out, and the direction's roundings, move the ray by
+  // 2^-50 is more than the least component, and the direction's roundings, move the ray by
   // over the whole way.
   const Wide plane_off = off + Doubles::broadcast(0x1p-50);
+  // A component that is zero, or nearly, becomes a small one, so that planes are not divided by zero.
   for (std::size_t k = 0; k < 3; ++k) {
     const Wide kept = Doubles::select(
-        Doubles::less(Doubles::abs(along[k]), Doubles::broadcast(0x1p-60)), zero, along[k]);
+        Doubles::less(Doubles::abs(along[k]), Doubles::broadcast(0x1p-60)),
+        Doubles::broadcast(0x1p-60), along[k]);
     const auto backward = Doubles::less(kept, zero);
     const Wide ahead = from[k] + plane_off, behind = from[k] - plane_off;
     store_at(to.along[k], part, kept);
@@ -108,6 +110,7 @@ TOUCHSTONE_TARGET inline void localise_part(const RayMesh& mesh, std::size_t par
     store_at(to.far[k], part, Doubles::select(backward, ahead, behind));
   }
   for (std::size_t k = 0; k < 3; ++k) store_at(to.origin[k], part, TOUCHSTONE_TURNED(from, k));
+  store_at(to.z, part, TOUCHSTONE_TURNED(along, 2));
   store_at(to.shear_x, part, TOUCHSTONE_TURNED(along, 0));
   store_at(to.shear_y, part, TOUCHSTONE_TURNED(along, 1));
 #undef TOUCHSTONE_TURNED
@@ -133,37 +136,57 @@ TOUCHSTONE_TARGET inline void localise_part(const RayMesh& mesh, std::size_t par
   store_at(to.sure_end, part, Doubles::min(end * down - moved * up, Doubles::broadcast(0x1p100)));
 }
 
+using Floats = Simd<float>;
+using Narrow = Floats::Vector;
+
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Narrow rounded_at(const RayBlock::Each<double>& from,
+                                                      std::size_t at) {
+  using Loaded = double __attribute__((vector_size(2 * sizeof(Narrow))));
+  using Rounded = float __attribute__((vector_size(sizeof(Narrow))));
+  Loaded x;
+  std::memcpy(&x, &from[at], sizeof x);
+  return std::bit_cast<Narrow>(__builtin_convertvector(x, Rounded));
+}
+// Floats on that side of x to which `outward` (1 or -1) points; off by less than two of their digits.
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Narrow widened_at(const RayBlock::Each<double>& from,
+                                                      std::size_t at, Narrow outward) {
+  const Narrow f = rounded_at(from, at);
+  return f + outward * (Floats::abs(f) * Floats::broadcast(0x1p-23F) + Floats::broadcast(0x1p-100F));
+}
+
+TOUCHSTONE_TARGET inline void round_part(const Unrounded& to, std::size_t at, RayBlock& block) {
+  const Narrow zero = Floats::broadcast(0), up = Floats::broadcast(1), down = Floats::broadcast(-1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Narrow along = rounded_at(to.along[k], at);
+    const auto backward = Floats::less(along, zero);
+    const Narrow outward = Floats::select(backward, down, up);
+    Floats::store(&block.inverse[k][at], up / Floats::abs(along) * outward);
+    Floats::store(&block.near_origin[k][at], widened_at(to.near[k], at, outward));
+    Floats::store(&block.far_origin[k][at], widened_at(to.far[k], at, zero - outward));
+    Floats::store(&block.origin[k][at], rounded_at(to.origin[k], at));
+    block.backward[k] |= Floats::to_bits(backward) << at;
+  }
+  Floats::store(&block.shear_x[at], rounded_at(to.shear_x, at));
+  Floats::store(&block.shear_y[at], rounded_at(to.shear_y, at));
+  const Narrow z = rounded_at(to.z, at);
+  Floats::store(&block.sign_z[at], Floats::select(Floats::less(z, zero), down, up));
+  Floats::store(&block.off[at], widened_at(to.off, at, up));
+  Floats::store(&block.tau_off[at], widened_at(to.tau_off, at, up));
+  Floats::store(&block.tau_end[at], widened_at(to.tau_end, at, up));
+  // No box is met before 0, so what is sure is behind it too.
+  Floats::store(&block.sure_begin[at], Floats::max(widened_at(to.sure_begin, at, up), Floats::broadcast(0x1p-100F)));
+  Floats::store(&block.sure_end[at], widened_at(to.sure_end, at, down));
+}
+
 // The rays into the tree's frame.
 TOUCHSTONE_TARGET inline void localise(const RayMesh& mesh, RayBlock& block) {
   Unrounded to;
   block.usable = 0;
-  const std::size_t lanes = (block.count + Doubles::width - 1) / Doubles::width * Doubles::width;
+  block.backward = {};
+  const std::size_t lanes = (block.count + Simd<float>::width - 1) / Simd<float>::width * Simd<float>::width;
   for (std::size_t part = 0; part < lanes; part += Doubles::width) {
     localise_part(mesh, part, block, to);
   }
   block.usable &= (1U << block.count) - 1;
-  constexpr float inf = std::numeric_limits<float>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const bool backward = to.along[k][i] < 0;
-      const float outward = backward ? -1.0F : 1.0F;
-      // Zero counts as positive, whatever its sign.
-      block.inverse[k][i] = to.along[k][i] == 0 ? inf : 1 / static_cast<float>(to.along[k][i]);
-      block.near_origin[k][i] = widened(to.near[k][i], outward);
-      block.far_origin[k][i] = widened(to.far[k][i], -outward);
-      block.backward[k][i] = backward ? 1 : 0;
-      block.origin[k][i] = static_cast<float>(to.origin[k][i]);
-    }
-  }
-  for (std::size_t i = 0; i < lanes; ++i) {
-    block.shear_x[i] = static_cast<float>(to.shear_x[i]);
-    block.shear_y[i] = static_cast<float>(to.shear_y[i]);
-    block.sign_z[i] = block.turned_direction[2][i] < 0 ? -1.0F : 1.0F;
-    block.off[i] = widened(to.off[i], 1);
-    block.tau_off[i] = widened(to.tau_off[i], 1);
-    block.tau_end[i] = widened(to.tau_end[i], 1);
-    // No box is met before 0, so what is sure is behind it too.
-    block.sure_begin[i] = std::max(widened(to.sure_begin[i], 1), 0x1p-100F);
-    block.sure_end[i] = widened(to.sure_end[i], -1);
-  }
+  for (std::size_t i = 0; i < lanes; i += Floats::width) round_part(to, i, block);
 }

@@ -7,30 +7,34 @@ struct HitCorners {
   double size = 1;  // mesh units
 };
 
-inline void gather(const RayMesh& mesh, const RayBlock& block, std::span<const FoundHit> found,
-                   HitCorners& corners) {
+// Gathers them; returns the rays with a hit, as bits. Other lanes have numbers that are not used.
+inline unsigned gather(const RayMesh& mesh, const RayBlock& block, std::span<const FoundHit> found,
+                       HitCorners& corners) {
   const bool of_leaves = mesh.is_exact() && mesh.frame().centre.isZero(0);
   if (of_leaves) corners.size = 1 / mesh.frame().scale;
+  unsigned hits = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    // A lane without a hit gets some numbers, which are not used.
-    const FoundHit hit = found[i].is_found() ? found[i] : FoundHit{0, 0};
-    const Leaf& leaf = mesh.leaves()[hit.leaf];
+    if (!found[i].is_found()) continue;
+    hits |= 1U << i;
+    const auto [number, lane] = found[i];
+    const Leaf& leaf = mesh.leaves()[number];
     const auto axes = block.axes(i);
     if (of_leaves) {
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          corners.at[3 * k + axis][i] = static_cast<double>(leaf.corners[3 * k + axes[axis]][hit.lane]);
+          corners.at[3 * k + axis][i] = static_cast<double>(leaf.corners[3 * k + axes[axis]][lane]);
         }
       }
       continue;
     }
-    const RayMesh::Corners vertices = mesh.corners(leaf, hit.lane);
+    const RayMesh::Corners vertices = mesh.corners(leaf, lane);
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         corners.at[3 * k + axis][i] = vertices[k][static_cast<Eigen::Index>(axes[axis])];
       }
     }
   }
+  return hits;
 }
 
 // t, u and v of the lanes from `part` on. Returns the lanes whose numbers are as near as RayQuery's, as
@@ -87,13 +91,15 @@ TOUCHSTONE_TARGET inline unsigned finish_part(const HitCorners& corners, const R
   return Doubles::to_bits(sure) << part;
 }
 
+// The numbers of the hits that are found: those that are sure, as bits.
 TOUCHSTONE_TARGET inline unsigned finish(const RayMesh& mesh, const RayBlock& block,
                                          std::span<const FoundHit> found, HitNumbers& to) {
   HitCorners corners;
-  gather(mesh, block, found, corners);
+  const unsigned hits = gather(mesh, block, found, corners);
   unsigned sure = 0;
+  constexpr unsigned lanes = (1U << Doubles::width) - 1;
   for (std::size_t part = 0; part < found.size(); part += Doubles::width) {
-    sure |= finish_part(corners, block, part, to);
+    if ((hits >> part & lanes) != 0) sure |= finish_part(corners, block, part, to);
   }
-  return sure;
+  return sure & hits;
 }

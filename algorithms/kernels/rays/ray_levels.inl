@@ -3,10 +3,13 @@
 #include "algorithms/kernels/rays/ray_finish.inl"
 #include "algorithms/kernels/rays/ray_walk.inl"
 
+#include "algorithms/kernels/rays/ray_packet.inl"
+
 TOUCHSTONE_TARGET void walk_hit(const RayMesh& mesh, const RayBlock& block, std::size_t ray,
                                 RayTask task, FoundHit& found, DoubtfulRay& doubtful) {
-  HitVisitor visitor(mesh, block, ray, task, found, doubtful);
-  walk(mesh, block, ray, visitor);
+  HitVisitor<DoubtfulRay> visitor(mesh, block, ray, task, found, doubtful);
+  float tau_end = block.tau_end[ray];
+  walk(mesh, block, ray, 0, tau_end, visitor);
 }
 
 TOUCHSTONE_TARGET void cast_block(const RayMesh& mesh, RayTask task, std::span<const Ray> rays,
@@ -14,7 +17,15 @@ TOUCHSTONE_TARGET void cast_block(const RayMesh& mesh, RayTask task, std::span<c
   localise(mesh, block);
   std::array<FoundHit, RayBlock::most> found;
   unsigned certain = 0;  // the rays whose hits need no query
+  Interval interval;
+  if (bound(mesh, block, interval)) {
+    PacketHits packet;
+    walk_packet(mesh, block, interval, task, found, packet);
+    certain = block.usable & ~packet.doubtful;
+  }
   for (std::size_t i = 0; i < rays.size(); ++i) {
+    if ((certain >> i & 1) != 0) continue;
+    found[i] = {};
     if (!block.is_usable(i)) {
       hits[i] = hit_of_all(mesh, task, rays[i]);
       continue;
@@ -59,6 +70,7 @@ TOUCHSTONE_TARGET void wind_block(const RayMesh& mesh, std::span<WindingQuery> q
     // A point that is too far for that is outside.
     if (!block.is_usable(i)) continue;
     OfferingVisitor<WindingQuery> visitor(mesh, block, i, queries[i]);
-    walk(mesh, block, i, visitor);
+    float tau_end = block.tau_end[i];
+    walk(mesh, block, i, 0, tau_end, visitor);
   }
 }

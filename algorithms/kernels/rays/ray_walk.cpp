@@ -92,6 +92,11 @@ RayHit DoubtfulRay::hit(const FoundHit& found) {
 
 void cast_each(const RayMesh& mesh, RayTask task, std::span<const Ray> rays,
                std::span<RayHit> hits) {
+  if (mesh.triangles() == 0) {
+    std::ranges::transform(rays, hits.begin(),
+                           [&](const Ray& ray) { return hit_of_all(mesh, task, ray); });
+    return;
+  }
   RayBlock block;
   load(rays, block);
   switch (isa()) {

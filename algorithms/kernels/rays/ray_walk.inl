@@ -31,15 +31,14 @@ struct Slabs {
         inverse_y(all(block.inverse[1][ray])),
         inverse_z(all(block.inverse[2][ray])) {
     for (std::size_t k = 0; k < 3; ++k) {
-      near[k] = k + 3 * std::size_t{block.backward[k][ray]};
+      near[k] = k + 3 * std::size_t{block.backward[k] >> ray & 1};
       far[k] = 2 * k + 3 - near[k];
     }
   }
 
-  // The children that the ray meets before tau_end, as bits; `begin` gets where. A NaN, of a plane at
-  // the origin of a ray along it, is the first operand of min and max, which then give the second.
+  // The children that the ray meets before tau_end, as bits; `begin` gets where.
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned meet(const WideNode& node, float tau_end,
-                                                    float* begin) const {
+                                                    Vector* begin) const {
     // Both ends have four roundings (two of the inverse), so that they change places by less than
     // nine units.
     const Vector more = all(1 + 16 * static_cast<float>(float_unit));
@@ -54,7 +53,7 @@ struct Slabs {
       const Vector end_z = (Lanes::load(&planes[far[2]][part]) - far_z) * inverse_z;
       const Vector first = Lanes::max(begin_x, Lanes::max(begin_y, Lanes::max(begin_z, all(0))));
       const Vector last = Lanes::min(end_x, Lanes::min(end_y, Lanes::min(end_z, all(tau_end))));
-      Lanes::store(begin + part, first);
+      begin[part / width] = first;
       bits |= Lanes::to_bits(Lanes::less_equal(first, last * more)) << part;
     }
     return bits;
@@ -131,44 +130,60 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void meet(const Leaf& leaf, const Shear& ray
   }
 }
 
-// Writes the keys of the children that are met, from far to near, and returns the last. `to` has room for
-// eight.
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::uint64_t push(unsigned bits, const WideNode& node,
-                                                       const float* near, std::uint64_t* to) {
+// Writes the keys of the children that are met but for the nearest, from far to near, and returns that one.
+// `to` has room for eight. One child is taken without a look at where it is met, since what comes next
+// would wait for that.
+template <class Near>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::int32_t push(unsigned bits, const WideNode& node,
+                                                      const Near* begin, std::uint64_t* to) {
+  const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+  unsigned others = bits & (bits - 1);
+  if (others == 0) return node.child[lane];
+  alignas(32) std::array<float, 8> near;
+  for (std::size_t part = 0; part < 8; part += width) {
+    Lanes::store(&near[part], begin[part / width]);
+  }
+  const auto next = static_cast<std::size_t>(std::countr_zero(others));
+  if ((others & (others - 1)) == 0) {
+    const std::uint64_t one = key_of(node.child[lane], near[lane]);
+    const std::uint64_t other = key_of(node.child[next], near[next]);
+    to[0] = std::max(one, other);
+    return one < other ? node.child[lane] : node.child[next];
+  }
 #if defined(__x86_64__)
-  if constexpr (Simd<float>::width > 8) {
-    return push_sorted(bits, node.child.data(), near, to);
+  if constexpr (Simd<float>::width > 8 && sizeof(Near) == 32) {
+    return child_of(push_sorted(bits, node.child.data(), begin[0], to));
   }
 #endif
   std::size_t count = 0;
   for (; bits != 0; bits &= bits - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-    const std::uint64_t key = key_of(node.child[lane], near[lane]);
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    const std::uint64_t key = key_of(node.child[k], near[k]);
     std::size_t at = count++;
     for (; at > 0 && to[at - 1] < key; --at) to[at] = to[at - 1];
     to[at] = key;
   }
-  return to[count - 1];
+  return child_of(to[count - 1]);
 }
 
-// Calls visit(leaf number, tau_end) for the leaves that the ray meets, about from near to far; it may
-// lower tau_end, and returns true to end the walk.
+// Calls visit(leaf number, tau_end) for the leaves from `start` on that the ray meets, about from near to
+// far; it may lower tau_end, and returns true to end the walk.
 template <class Visitor>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk(const RayMesh& mesh, const RayBlock& block,
-                                              std::size_t ray, Visitor& visitor) {
+                                              std::size_t ray, std::int32_t start,
+                                              float& tau_end, Visitor& visitor) {
   const WideNode* const nodes = mesh.tree().nodes.data();
   const Slabs slabs(block, ray);
   std::array<std::uint64_t, WideBvh::most_open + WideNode::fan> stack;
   std::size_t open = 0;
-  std::uint64_t now = key_of(0, 0);
-  float tau_end = block.tau_end[ray];
-  alignas(64) float near[8];
+  std::int32_t now = start;
+  Vector near[8 / width];
   for (;;) {
-    if (WideNode::is_leaf(child_of(now))) {
-      if (visitor.visit(WideNode::leaf(child_of(now)), tau_end)) return;
+    if (WideNode::is_leaf(now)) {
+      if (visitor.visit(WideNode::leaf(now), tau_end)) return;
     } else {
       // Lanes without a child have empty boxes, which no ray meets.
-      const WideNode& node = nodes[child_of(now)];
+      const WideNode& node = nodes[now];
       const unsigned bits = slabs.meet(node, tau_end, near);
       if (bits != 0) {
         // The nearest is next, and the others are on the stack, the nearer the higher.
@@ -177,29 +192,32 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk(const RayMesh& mesh, const RayBloc
         continue;
       }
     }
+    std::uint64_t top;
     do {
       if (open == 0) return;
-      now = stack[--open];
-    } while (near_of(now) > tau_end);
+      top = stack[--open];
+    } while (near_of(top) > tau_end);
+    now = child_of(top);
   }
 }
 
 // The first hit of a ray, or any. A hit that is certain in floats stays, without a look in doubles, until
-// another is before it for certain. Where floats do not tell, the query decides.
+// another is before it for certain. Where floats do not tell, `doubt` does.
+template <class Doubt>
 struct HitVisitor {
   const RayMesh& mesh;
   const RayBlock& block;
   const std::size_t ray;
   const RayTask task;
   FoundHit& found;
-  DoubtfulRay& doubtful;
+  Doubt& doubt;
   Shear shear;
   LeafHits hits;
   float first, last;  // the tau of what was found
 
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE HitVisitor(const RayMesh& m, const RayBlock& b, std::size_t r,
-                                                 RayTask t, FoundHit& f, DoubtfulRay& d)
-      : mesh(m), block(b), ray(r), task(t), found(f), doubtful(d), shear(b, r), first(0), last(0) {}
+                                                 RayTask t, FoundHit& f, Doubt& d)
+      : mesh(m), block(b), ray(r), task(t), found(f), doubt(d), shear(b, r), first(0), last(0) {}
 
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool visit(std::uint32_t number, float& tau_end) {
     const Leaf& leaf = mesh.leaves()[number];
@@ -219,7 +237,7 @@ struct HitVisitor {
         }
         if (hits.first[lane] > last) continue;
       }
-      if (doubtful.offer(found, {number, static_cast<std::uint32_t>(lane)}, task, tau_end)) return true;
+      if (doubt.offer(found, {number, static_cast<std::uint32_t>(lane)}, task, tau_end)) return true;
     }
     return false;
   }

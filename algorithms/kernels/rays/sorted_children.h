@@ -35,11 +35,11 @@ TOUCHSTONE_TARGET_AVX512 inline __attribute__((always_inline)) __m512i stage(__m
 // Writes the keys of the children whose bits are set to `to`, from far to near, and something behind them
 // up to the eighth; returns the least key. At least one bit is set.
 TOUCHSTONE_TARGET_AVX512 inline __attribute__((always_inline)) std::uint64_t push_sorted(
-    unsigned bits, const std::int32_t* child, const float* near, std::uint64_t* to) {
+    unsigned bits, const std::int32_t* child, __m256 near, std::uint64_t* to) {
   namespace network = sorting_network;
   const __m512i children =
       _mm512_cvtepu32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(child)));
-  const __m512i nears = _mm512_cvtepu32_epi64(_mm256_castps_si256(_mm256_loadu_ps(near)));
+  const __m512i nears = _mm512_cvtepu32_epi64(_mm256_castps_si256(near));
   const __m512i packed = _mm512_or_si512(_mm512_slli_epi64(nears, 32), children);
   const auto set = static_cast<__mmask8>(bits);
   const std::uint64_t least = _mm512_mask_reduce_min_epu64(set, packed);
