@@ -79,13 +79,14 @@ class WideBvhPoints final : public PointQuery {
         queries.emplace_back(points[i]);
         asked.push_back(&answers[i]);
       }
-      if (queries.size() == ray_tree::RayBlock::most || (i + 1 == points.size() && !queries.empty())) {
+      if (queries.size() == ray_tree::RayBlock::most ||
+          (i + 1 == points.size() && !queries.empty())) {
         if (mesh_->triangles() > 0) ray_tree::wind_each(*mesh_, queries);
         for (std::size_t k = 0; k < queries.size(); ++k) {
           if (queries[k].is_undecided()) {
             asked[k]->status = Status::degenerate;
           } else {
-            asked[k]->side = queries[k].is_on_surface() ? PointSide::surface
+            asked[k]->side = queries[k].is_on_surface()  ? PointSide::surface
                              : queries[k].winding() != 0 ? PointSide::inside
                                                          : PointSide::outside;
           }

@@ -48,7 +48,8 @@ struct alignas(64) RayBlock {
 
   bool is_usable(std::size_t ray) const { return (usable >> ray & 1) != 0; }
   std::array<std::size_t, 3> axes(std::size_t ray) const {
-    constexpr std::array<std::array<std::size_t, 3>, 3> turned = {{{1, 2, 0}, {2, 0, 1}, {0, 1, 2}}};
+    constexpr std::array<std::array<std::size_t, 3>, 3> turned = {
+        {{1, 2, 0}, {2, 0, 1}, {0, 1, 2}}};
     return turned[greatest[ray]];
   }
   // A tau, rounded up, beyond which nothing is at t or before it.

@@ -4,7 +4,8 @@
 using Doubles = Simd<double>;
 using Wide = Doubles::Vector;
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Wide load_at(const RayBlock::Each<double>& from, std::size_t at) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Wide load_at(const RayBlock::Each<double>& from,
+                                                 std::size_t at) {
   return Doubles::load(&from[at]);
 }
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void store_at(RayBlock::Each<double>& to, std::size_t at,
@@ -25,7 +26,8 @@ inline double way_to_mesh(const std::array<double, 3>& from, const std::array<do
   double enter = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double gap = std::abs(from[axis]) - 1;
-    if (gap > 0 && from[axis] * along[axis] < 0) enter = std::max(enter, gap / std::abs(along[axis]));
+    if (gap > 0 && from[axis] * along[axis] < 0)
+      enter = std::max(enter, gap / std::abs(along[axis]));
   }
   return enter < 0x1p31 ? std::max(0.0, enter * (1 - 0x1p-40) - 0x1p-10) : 0.0;
 }
@@ -65,8 +67,8 @@ TOUCHSTONE_TARGET inline void localise_part(const RayMesh& mesh, std::size_t par
   for (std::size_t lane = 0; lane < Doubles::width; ++lane) {
     block.greatest[part + lane] = (x_bits >> lane & 1) != 0 ? 0U : 2U - (y_bits >> lane & 1);
   }
-#define TOUCHSTONE_TURNED(v, k)                              \
-  Doubles::select(x_first, (v)[((k) + 1) % 3],               \
+#define TOUCHSTONE_TURNED(v, k)                \
+  Doubles::select(x_first, (v)[((k) + 1) % 3], \
                   Doubles::select(y_first, (v)[((k) + 2) % 3], (v)[(k)]))
   Wide given[3];
   for (std::size_t k = 0; k < 3; ++k) given[k] = load_at(block.from[k], part);
@@ -100,9 +102,9 @@ TOUCHSTONE_TARGET inline void localise_part(const RayMesh& mesh, std::size_t par
   const Wide plane_off = off + Doubles::broadcast(0x1p-50);
   // A component that is zero, or nearly, becomes a small one, so that planes are not divided by zero.
   for (std::size_t k = 0; k < 3; ++k) {
-    const Wide kept = Doubles::select(
-        Doubles::less(Doubles::abs(along[k]), Doubles::broadcast(0x1p-60)),
-        Doubles::broadcast(0x1p-60), along[k]);
+    const Wide kept =
+        Doubles::select(Doubles::less(Doubles::abs(along[k]), Doubles::broadcast(0x1p-60)),
+                        Doubles::broadcast(0x1p-60), along[k]);
     const auto backward = Doubles::less(kept, zero);
     const Wide ahead = from[k] + plane_off, behind = from[k] - plane_off;
     store_at(to.along[k], part, kept);
@@ -124,8 +126,9 @@ TOUCHSTONE_TARGET inline void localise_part(const RayMesh& mesh, std::size_t par
   const Wide seen = Doubles::broadcast(1) + origin_reach;
   const Wide coordinate = Doubles::broadcast(mesh.is_exact() ? 0 : float_unit) + off +
                           half * origin_reach + half * seen;
-  store_at(to.off, part,
-           Doubles::broadcast(1.01) * (coordinate + coordinate + Doubles::broadcast(4) * half * seen));
+  store_at(
+      to.off, part,
+      Doubles::broadcast(1.01) * (coordinate + coordinate + Doubles::broadcast(4) * half * seen));
   const Wide tau_off =
       Doubles::broadcast(1.01) * (coordinate + Doubles::broadcast(3) * half * seen);
   store_at(to.tau_off, part, tau_off);
@@ -151,7 +154,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Narrow rounded_at(const RayBlock::Each<doubl
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Narrow widened_at(const RayBlock::Each<double>& from,
                                                       std::size_t at, Narrow outward) {
   const Narrow f = rounded_at(from, at);
-  return f + outward * (Floats::abs(f) * Floats::broadcast(0x1p-23F) + Floats::broadcast(0x1p-100F));
+  return f +
+         outward * (Floats::abs(f) * Floats::broadcast(0x1p-23F) + Floats::broadcast(0x1p-100F));
 }
 
 TOUCHSTONE_TARGET inline void round_part(const Unrounded& to, std::size_t at, RayBlock& block) {
@@ -174,7 +178,8 @@ TOUCHSTONE_TARGET inline void round_part(const Unrounded& to, std::size_t at, Ra
   Floats::store(&block.tau_off[at], widened_at(to.tau_off, at, up));
   Floats::store(&block.tau_end[at], widened_at(to.tau_end, at, up));
   // No box is met before 0, so what is sure is behind it too.
-  Floats::store(&block.sure_begin[at], Floats::max(widened_at(to.sure_begin, at, up), Floats::broadcast(0x1p-100F)));
+  Floats::store(&block.sure_begin[at],
+                Floats::max(widened_at(to.sure_begin, at, up), Floats::broadcast(0x1p-100F)));
   Floats::store(&block.sure_end[at], widened_at(to.sure_end, at, down));
 }
 
@@ -183,7 +188,8 @@ TOUCHSTONE_TARGET inline void localise(const RayMesh& mesh, RayBlock& block) {
   Unrounded to;
   block.usable = 0;
   block.backward = {};
-  const std::size_t lanes = (block.count + Simd<float>::width - 1) / Simd<float>::width * Simd<float>::width;
+  const std::size_t lanes =
+      (block.count + Simd<float>::width - 1) / Simd<float>::width * Simd<float>::width;
   for (std::size_t part = 0; part < lanes; part += Doubles::width) {
     localise_part(mesh, part, block, to);
   }

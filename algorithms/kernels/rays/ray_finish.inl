@@ -50,8 +50,8 @@ TOUCHSTONE_TARGET inline unsigned finish_part(const HitCorners& corners, const R
   for (std::size_t k = 0; k < 3; ++k) {
     Wide seen[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      seen[axis] = load_at(corners.at[3 * k + axis], part) * size -
-                   load_at(block.turned_from[axis], part);
+      seen[axis] =
+          load_at(corners.at[3 * k + axis], part) * size - load_at(block.turned_from[axis], part);
       reach = Doubles::max(reach, Doubles::abs(seen[axis]));
     }
     z[k] = seen[2];
@@ -77,7 +77,8 @@ TOUCHSTONE_TARGET inline unsigned finish_part(const HitCorners& corners, const R
                         Doubles::broadcast(16 * unit) * far) *
                        per_z;
   const Wide t = (a * z[0] + b * z[1] + c * z[2]) / sum * inverse;
-  const Wide least = Doubles::min(Doubles::min(a, b), c), most = Doubles::max(Doubles::max(a, b), c);
+  const Wide least = Doubles::min(Doubles::min(a, b), c),
+             most = Doubles::max(Doubles::max(a, b), c);
   auto sure = Doubles::less(error, Doubles::max(least, zero - most));
   sure = Doubles::less_equal(sure, Doubles::broadcast(3) * error,
                              Doubles::broadcast(0x1p-24) * magnitude);

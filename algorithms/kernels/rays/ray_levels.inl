@@ -5,11 +5,56 @@
 
 #include "algorithms/kernels/rays/ray_packet.inl"
 
-TOUCHSTONE_TARGET void walk_hit(const RayMesh& mesh, const RayBlock& block, std::size_t ray,
-                                RayTask task, FoundHit& found, DoubtfulRay& doubtful) {
-  HitVisitor<DoubtfulRay> visitor(mesh, block, ray, task, found, doubtful);
-  float tau_end = block.tau_end[ray];
-  walk(mesh, block, ray, 0, tau_end, visitor);
+// A ray that is walked with others.
+struct Walker {
+  std::size_t ray;
+  DoubtfulRay doubtful;
+  Walk<HitVisitor<DoubtfulRay>> walk;
+
+  TOUCHSTONE_TARGET Walker(const RayMesh& mesh, const RayBlock& block, std::size_t r, RayTask task,
+                           FoundHit& found)
+      : ray(r),
+        doubtful(mesh, block, r),
+        walk(mesh, block, r, 0, block.tau_end[r], task, found, doubtful) {}
+};
+
+// Walks rays (bits) in turns, a step each, since a step waits for the one before it. Writes the hits of
+// those that floats do not decide, and returns the others.
+TOUCHSTONE_TARGET unsigned walk_in_turns(const RayMesh& mesh, const RayBlock& block, RayTask task,
+                                         unsigned rays, std::span<FoundHit> found,
+                                         std::span<RayHit> hits) {
+  std::array<std::optional<Walker>, rays_in_turn> walkers;
+  unsigned certain = 0;
+  std::size_t busy = 0;
+  const auto next = [&](std::optional<Walker>& walker) {
+    const auto ray = static_cast<std::size_t>(std::countr_zero(rays));
+    rays &= rays - 1;
+    found[ray] = {};
+    walker.emplace(mesh, block, ray, task, found[ray]);
+  };
+  for (auto& walker : walkers) {
+    if (rays == 0) break;
+    next(walker);
+    ++busy;
+  }
+  while (busy > 0) {
+    for (std::size_t k = 0; k < rays_in_turn; ++k) {
+      if (!walkers[k] || walkers[k]->walk.step()) continue;
+      const std::size_t ray = walkers[k]->ray;
+      if (walkers[k]->doubtful.is_asked()) {
+        hits[ray] = walkers[k]->doubtful.hit(found[ray]);
+      } else {
+        certain |= 1U << ray;
+      }
+      if (rays != 0) {
+        next(walkers[k]);
+      } else {
+        walkers[k].reset();
+        --busy;
+      }
+    }
+  }
+  return certain;
 }
 
 TOUCHSTONE_TARGET void cast_block(const RayMesh& mesh, RayTask task, std::span<const Ray> rays,
@@ -24,20 +69,9 @@ TOUCHSTONE_TARGET void cast_block(const RayMesh& mesh, RayTask task, std::span<c
     certain = block.usable & ~packet.doubtful;
   }
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if ((certain >> i & 1) != 0) continue;
-    found[i] = {};
-    if (!block.is_usable(i)) {
-      hits[i] = hit_of_all(mesh, task, rays[i]);
-      continue;
-    }
-    DoubtfulRay doubtful(mesh, block, i);
-    walk_hit(mesh, block, i, task, found[i], doubtful);
-    if (doubtful.is_asked()) {
-      hits[i] = doubtful.hit(found[i]);
-    } else {
-      certain |= 1U << i;
-    }
+    if (!block.is_usable(i)) hits[i] = hit_of_all(mesh, task, rays[i]);
   }
+  certain |= walk_in_turns(mesh, block, task, block.usable & ~certain, found, hits);
   HitNumbers numbers;
   const unsigned sure = finish(mesh, block, std::span(found).first(rays.size()), numbers);
   for (; certain != 0; certain &= certain - 1) {
@@ -69,8 +103,8 @@ TOUCHSTONE_TARGET void wind_block(const RayMesh& mesh, std::span<WindingQuery> q
   for (std::size_t i = 0; i < queries.size(); ++i) {
     // A point that is too far for that is outside.
     if (!block.is_usable(i)) continue;
-    OfferingVisitor<WindingQuery> visitor(mesh, block, i, queries[i]);
-    float tau_end = block.tau_end[i];
-    walk(mesh, block, i, 0, tau_end, visitor);
+    Walk<OfferingVisitor<WindingQuery>> walk(mesh, block, i, 0, block.tau_end[i], queries[i]);
+    while (walk.step()) {
+    }
   }
 }

@@ -22,7 +22,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Extremes extremes(const RayBlock::Each<float
 constexpr float most_spread = 0.25F;
 
 // Returns false if the rays are not worth it. Lanes behind the last ray have its numbers.
-TOUCHSTONE_TARGET inline bool bound(const RayMesh& mesh, const RayBlock& block, Interval& interval) {
+TOUCHSTONE_TARGET inline bool bound(const RayMesh& mesh, const RayBlock& block,
+                                    Interval& interval) {
   const unsigned every = (1U << block.count) - 1;
   if (block.count < RayBlock::most / 2 || block.usable != every) return false;
   for (const unsigned backward : block.backward) {
@@ -75,7 +76,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned meet(const Boxes& boxes, const Inte
       Lanes::less_equal(first, last * all(1 + 16 * static_cast<float>(float_unit))));
 }
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load(const WideNode& node, std::size_t part, Boxes& boxes) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load(const WideNode& node, std::size_t part,
+                                              Boxes& boxes) {
   for (std::size_t k = 0; k < 3; ++k) {
     boxes.ends[0][k] = Lanes::load(&node.planes[k][part]);
     boxes.ends[1][k] = Lanes::load(&node.planes[k + 3][part]);
@@ -111,7 +113,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void meet_all(const RayBlock& block,
     const Narrow tau_off = Floats::load(&block.tau_off[part]);
     Narrow x[3], y[3], tau[3], side[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      tau[k] = (Floats::broadcast(corners[3 * k + 2]) - Floats::load(&block.origin[2][part])) * sign;
+      tau[k] =
+          (Floats::broadcast(corners[3 * k + 2]) - Floats::load(&block.origin[2][part])) * sign;
       x[k] = Floats::broadcast(corners[3 * k]) - Floats::load(&block.origin[0][part]) -
              Floats::load(&block.shear_x[part]) * tau[k];
       y[k] = Floats::broadcast(corners[3 * k + 1]) - Floats::load(&block.origin[1][part]) -
@@ -147,10 +150,12 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void meet_all(const RayBlock& block,
     const Narrow first = mean - tau_error, last = mean + tau_error;
     const unsigned certain =
         possible &
-        (Floats::to_bits(Floats::less(error, least)) | Floats::to_bits(Floats::less(most, zero - error))) &
+        (Floats::to_bits(Floats::less(error, least)) |
+         Floats::to_bits(Floats::less(most, zero - error))) &
         Floats::to_bits(Floats::less(Floats::load(&block.sure_begin[part]), first)) &
         Floats::to_bits(Floats::less(last, Floats::load(&block.sure_end[part])));
-    const Narrow old_first = Floats::load(&hits.first[part]), old_last = Floats::load(&hits.last[part]);
+    const Narrow old_first = Floats::load(&hits.first[part]),
+                 old_last = Floats::load(&hits.last[part]);
     const unsigned better = certain & Floats::to_bits(Floats::less(last, old_first));
     const unsigned beaten = certain & Floats::to_bits(Floats::less(old_last, first));
     const unsigned doubtful = possible & ~better & ~beaten;
@@ -219,13 +224,16 @@ struct PacketWalk {
   // A ray by itself from a child on.
   TOUCHSTONE_TARGET void walk_alone(std::size_t ray, std::int32_t child) const {
     Doubt doubt;
-    HitVisitor<Doubt> visitor(mesh, block, ray, task, found[ray], doubt);
-    visitor.first = hits.first[ray];
-    visitor.last = hits.last[ray];
+    Walk<HitVisitor<Doubt>> alone(mesh, block, ray, child, hits.tau_end[ray], task, found[ray],
+                                  doubt);
+    alone.visitor.first = hits.first[ray];
+    alone.visitor.last = hits.last[ray];
     const FoundHit before = found[ray];
-    walk(mesh, block, ray, child, hits.tau_end[ray], visitor);
-    hits.first[ray] = visitor.first;
-    hits.last[ray] = visitor.last;
+    while (alone.step()) {
+    }
+    hits.tau_end[ray] = alone.tau_end;
+    hits.first[ray] = alone.visitor.first;
+    hits.last[ray] = alone.visitor.last;
     const bool is_done = task == RayTask::any && found[ray] != before;
     if (doubt.is_raised) hits.doubtful |= 1U << ray;
     if (doubt.is_raised || is_done) {
@@ -315,7 +323,8 @@ TOUCHSTONE_TARGET inline void walk_packet(const RayMesh& mesh, const RayBlock& b
     } else if (WideNode::is_leaf(now.child)) {
       packet.visit(WideNode::leaf(now.child), rays);
     } else {
-      packet.open_node(mesh.tree().nodes[static_cast<std::size_t>(now.child)], rays, stack.data(), open);
+      packet.open_node(mesh.tree().nodes[static_cast<std::size_t>(now.child)], rays, stack.data(),
+                       open);
       continue;
     }
     if (hits.active == 0) return;

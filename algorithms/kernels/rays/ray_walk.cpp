@@ -23,6 +23,8 @@ inline float widened(double x, float outward) {
   return f + outward * (std::abs(f) * 0x1p-23F + 0x1p-100F);
 }
 
+constexpr std::size_t rays_in_turn = 2;
+
 struct HitNumbers {
   RayBlock::Each<double> t, u, v;
 };

@@ -11,7 +11,8 @@
 namespace touchstone::ray_tree {
 
 // Writes the hit of each ray. The rays are taken as they are; at most RayBlock::most, at least one.
-void cast_each(const RayMesh& mesh, RayTask task, std::span<const Ray> rays, std::span<RayHit> hits);
+void cast_each(const RayMesh& mesh, RayTask task, std::span<const Ray> rays,
+               std::span<RayHit> hits);
 
 // Offers to each query every triangle that may be above its point. At most RayBlock::most, at least one.
 void wind_each(const RayMesh& mesh, std::span<WindingQuery> queries);

@@ -14,26 +14,25 @@ constexpr std::size_t width = Lanes::width;
 
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector all(float x) { return Lanes::broadcast(x); }
 
-// What a node's boxes are met with.
+// A ray at a node's boxes.
 struct Slabs {
-  Vector near_x, near_y, near_z, far_x, far_y, far_z;  // origins of near and far planes
-  Vector inverse_x, inverse_y, inverse_z;
+  const RayBlock& block;
+  const std::size_t ray;
   std::array<std::size_t, 3> near, far;  // which of a node's planes is met first on each axis
 
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Slabs(const RayBlock& block, std::size_t ray)
-      : near_x(all(block.near_origin[0][ray])),
-        near_y(all(block.near_origin[1][ray])),
-        near_z(all(block.near_origin[2][ray])),
-        far_x(all(block.far_origin[0][ray])),
-        far_y(all(block.far_origin[1][ray])),
-        far_z(all(block.far_origin[2][ray])),
-        inverse_x(all(block.inverse[0][ray])),
-        inverse_y(all(block.inverse[1][ray])),
-        inverse_z(all(block.inverse[2][ray])) {
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Slabs(const RayBlock& b, std::size_t r) : block(b), ray(r) {
     for (std::size_t k = 0; k < 3; ++k) {
       near[k] = k + 3 * std::size_t{block.backward[k] >> ray & 1};
       far[k] = 2 * k + 3 - near[k];
     }
+  }
+
+  // The times at which the ray meets planes on an axis.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector at(const WideNode& node, std::size_t plane,
+                                                const RayBlock::Each<float>& origin,
+                                                std::size_t axis, std::size_t part) const {
+    return (Lanes::load(&node.planes[plane][part]) - all(origin[ray])) *
+           all(block.inverse[axis][ray]);
   }
 
   // The children that the ray meets before tau_end, as bits; `begin` gets where.
@@ -42,17 +41,13 @@ struct Slabs {
     // Both ends have four roundings (two of the inverse), so that they change places by less than
     // nine units.
     const Vector more = all(1 + 16 * static_cast<float>(float_unit));
-    const auto& planes = node.planes;
     unsigned bits = 0;
     for (std::size_t part = 0; part < 8; part += width) {
-      const Vector begin_x = (Lanes::load(&planes[near[0]][part]) - near_x) * inverse_x;
-      const Vector begin_y = (Lanes::load(&planes[near[1]][part]) - near_y) * inverse_y;
-      const Vector begin_z = (Lanes::load(&planes[near[2]][part]) - near_z) * inverse_z;
-      const Vector end_x = (Lanes::load(&planes[far[0]][part]) - far_x) * inverse_x;
-      const Vector end_y = (Lanes::load(&planes[far[1]][part]) - far_y) * inverse_y;
-      const Vector end_z = (Lanes::load(&planes[far[2]][part]) - far_z) * inverse_z;
-      const Vector first = Lanes::max(begin_x, Lanes::max(begin_y, Lanes::max(begin_z, all(0))));
-      const Vector last = Lanes::min(end_x, Lanes::min(end_y, Lanes::min(end_z, all(tau_end))));
+      Vector first = all(0), last = all(tau_end);
+      for (std::size_t k = 0; k < 3; ++k) {
+        first = Lanes::max(at(node, near[k], block.near_origin[k], k, part), first);
+        last = Lanes::min(at(node, far[k], block.far_origin[k], k, part), last);
+      }
       begin[part / width] = first;
       bits |= Lanes::to_bits(Lanes::less_equal(first, last * more)) << part;
     }
@@ -60,19 +55,20 @@ struct Slabs {
   }
 };
 
-// What a leaf's eight triangles are sheared with.
+// A ray at a leaf's triangles.
 struct Shear {
-  std::array<std::size_t, 3> axes;
-  Vector origin[3], x, y, sign, off, tau_off;
+  const RayBlock& block;
+  const std::size_t ray;
+  const std::array<std::size_t, 3> axes;
 
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Shear(const RayBlock& block, std::size_t ray)
-      : axes(block.axes(ray)),
-        origin{all(block.origin[0][ray]), all(block.origin[1][ray]), all(block.origin[2][ray])},
-        x(all(block.shear_x[ray])),
-        y(all(block.shear_y[ray])),
-        sign(all(block.sign_z[ray])),
-        off(all(block.off[ray])),
-        tau_off(all(block.tau_off[ray])) {}
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Shear(const RayBlock& b, std::size_t r)
+      : block(b), ray(r), axes(b.axes(r)) {}
+
+  // A vertex of each triangle from the ray's origin, on one of the ray's axes.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector seen(const Leaf& leaf, std::size_t vertex,
+                                                  std::size_t axis, std::size_t part) const {
+    return Lanes::load(&leaf.corners[3 * vertex + axes[axis]][part]) - all(block.origin[axis][ray]);
+  }
 };
 
 // The triangles of a leaf that a ray may hit before tau_end, and those of them whose inside it meets for
@@ -85,15 +81,15 @@ struct LeafHits {
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void meet(const Leaf& leaf, const Shear& ray, float tau_end,
                                               LeafHits& hits) {
   hits.possible = hits.certain = 0;
-  const Vector zero = all(0);
+  const Vector zero = all(0), sign = all(ray.block.sign_z[ray.ray]);
+  const Vector shear_x = all(ray.block.shear_x[ray.ray]), shear_y = all(ray.block.shear_y[ray.ray]);
+  const Vector off = all(ray.block.off[ray.ray]), tau_off = all(ray.block.tau_off[ray.ray]);
   for (std::size_t part = 0; part < 8; part += width) {
     Vector x[3], y[3], tau[3], side[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector z =
-          Lanes::load(&leaf.corners[3 * k + ray.axes[2]][part]) - ray.origin[2];
-      tau[k] = z * ray.sign;
-      x[k] = Lanes::load(&leaf.corners[3 * k + ray.axes[0]][part]) - ray.origin[0] - ray.x * tau[k];
-      y[k] = Lanes::load(&leaf.corners[3 * k + ray.axes[1]][part]) - ray.origin[1] - ray.y * tau[k];
+      tau[k] = ray.seen(leaf, k, 2, part) * sign;
+      x[k] = ray.seen(leaf, k, 0, part) - shear_x * tau[k];
+      y[k] = ray.seen(leaf, k, 1, part) - shear_y * tau[k];
       side[k] = Lanes::abs(x[k]) + Lanes::abs(y[k]);
     }
     const Vector a = x[2] * y[1] - y[2] * x[1];
@@ -101,7 +97,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void meet(const Leaf& leaf, const Shear& ray
     const Vector c = x[1] * y[0] - y[1] * x[0];
     // As in RayQuery: the errors of the coordinates, and the roundings of the weights and of this.
     const Vector reach = Lanes::max(Lanes::max(side[0], side[1]), side[2]);
-    const Vector error = all(2.02F) * ray.off * (reach + ray.off) +
+    const Vector error = all(2.02F) * off * (reach + off) +
                          all(4 * static_cast<float>(float_unit)) * reach * reach + all(0x1p-120F);
     const Vector least = Lanes::min(Lanes::min(a, b), c);
     const Vector most = Lanes::max(Lanes::max(a, b), c);
@@ -109,14 +105,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void meet(const Leaf& leaf, const Shear& ray
     const Vector furthest = Lanes::max(Lanes::max(tau[0], tau[1]), tau[2]);
     const unsigned missed =
         Lanes::to_bits(Lanes::less(least + error, zero)) & Lanes::to_bits(Lanes::less(error, most));
-    const unsigned within = Lanes::to_bits(Lanes::less_equal(nearest, all(tau_end) + ray.tau_off)) &
-                            Lanes::to_bits(Lanes::less_equal(zero - ray.tau_off, furthest));
+    const unsigned within = Lanes::to_bits(Lanes::less_equal(nearest, all(tau_end) + tau_off)) &
+                            Lanes::to_bits(Lanes::less_equal(zero - tau_off, furthest));
     const unsigned possible = within & ~missed;
     if (possible == 0) continue;
     hits.possible |= possible << part;
-    const unsigned certain =
-        possible & (Lanes::to_bits(Lanes::less(error, least)) |
-                    Lanes::to_bits(Lanes::less(most, zero - error)));
+    const unsigned certain = possible & (Lanes::to_bits(Lanes::less(error, least)) |
+                                         Lanes::to_bits(Lanes::less(most, zero - error)));
     hits.certain |= certain << part;
     // The weights' errors move the mean of the vertices' tau by at most their part of its spread, as
     // in RayQuery; the mean itself has up to eight roundings.
@@ -124,41 +119,30 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void meet(const Leaf& leaf, const Shear& ray
     const Vector mean = (a * tau[0] + b * tau[1] + c * tau[2]) / (a + b + c);
     const Vector far = Lanes::max(Lanes::abs(nearest), Lanes::abs(furthest));
     const Vector tau_error = all(3.05F) * error * (furthest - nearest) / sum +
-                             all(10 * static_cast<float>(float_unit)) * far + ray.tau_off;
+                             all(10 * static_cast<float>(float_unit)) * far + tau_off;
     Lanes::store(&hits.first[part], mean - tau_error);
     Lanes::store(&hits.last[part], mean + tau_error);
   }
 }
 
-// Writes the keys of the children that are met but for the nearest, from far to near, and returns that one.
-// `to` has room for eight. One child is taken without a look at where it is met, since what comes next
-// would wait for that.
+// Writes the keys of the children that are met, from far to near, and returns the nearest. `to` has room
+// for eight.
 template <class Near>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::int32_t push(unsigned bits, const WideNode& node,
                                                       const Near* begin, std::uint64_t* to) {
-  const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-  unsigned others = bits & (bits - 1);
-  if (others == 0) return node.child[lane];
-  alignas(32) std::array<float, 8> near;
-  for (std::size_t part = 0; part < 8; part += width) {
-    Lanes::store(&near[part], begin[part / width]);
-  }
-  const auto next = static_cast<std::size_t>(std::countr_zero(others));
-  if ((others & (others - 1)) == 0) {
-    const std::uint64_t one = key_of(node.child[lane], near[lane]);
-    const std::uint64_t other = key_of(node.child[next], near[next]);
-    to[0] = std::max(one, other);
-    return one < other ? node.child[lane] : node.child[next];
-  }
 #if defined(__x86_64__)
   if constexpr (Simd<float>::width > 8 && sizeof(Near) == 32) {
     return child_of(push_sorted(bits, node.child.data(), begin[0], to));
   }
 #endif
+  alignas(32) std::array<float, 8> near;
+  for (std::size_t part = 0; part < 8; part += width) {
+    Lanes::store(&near[part], begin[part / width]);
+  }
   std::size_t count = 0;
   for (; bits != 0; bits &= bits - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-    const std::uint64_t key = key_of(node.child[k], near[k]);
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    const std::uint64_t key = key_of(node.child[lane], near[lane]);
     std::size_t at = count++;
     for (; at > 0 && to[at - 1] < key; --at) to[at] = to[at - 1];
     to[at] = key;
@@ -166,40 +150,53 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::int32_t push(unsigned bits, const WideN
   return child_of(to[count - 1]);
 }
 
-// Calls visit(leaf number, tau_end) for the leaves from `start` on that the ray meets, about from near to
-// far; it may lower tau_end, and returns true to end the walk.
+// The walk of a ray from a child on. It calls visit(leaf number, tau_end) for the leaves that the ray meets,
+// about from near to far; the visitor may lower tau_end, and returns true to end the walk.
 template <class Visitor>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void walk(const RayMesh& mesh, const RayBlock& block,
-                                              std::size_t ray, std::int32_t start,
-                                              float& tau_end, Visitor& visitor) {
-  const WideNode* const nodes = mesh.tree().nodes.data();
-  const Slabs slabs(block, ray);
-  std::array<std::uint64_t, WideBvh::most_open + WideNode::fan> stack;
+struct Walk {
+  const WideNode* const nodes;
+  const Slabs slabs;
+  Visitor visitor;
+  float tau_end;
+  std::int32_t now;
   std::size_t open = 0;
-  std::int32_t now = start;
-  Vector near[8 / width];
-  for (;;) {
+  std::array<std::uint64_t, WideBvh::most_open + WideNode::fan> stack;
+
+  template <class... Arguments>
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Walk(const RayMesh& mesh, const RayBlock& block,
+                                           std::size_t ray, std::int32_t start, float end,
+                                           Arguments&&... arguments)
+      : nodes(mesh.tree().nodes.data()),
+        slabs(block, ray),
+        visitor(mesh, block, ray, arguments...),
+        tau_end(end),
+        now(start) {}
+
+  // One node or leaf. Returns false at the walk's end.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool step() {
     if (WideNode::is_leaf(now)) {
-      if (visitor.visit(WideNode::leaf(now), tau_end)) return;
+      if (visitor.visit(WideNode::leaf(now), tau_end)) return false;
     } else {
       // Lanes without a child have empty boxes, which no ray meets.
       const WideNode& node = nodes[now];
-      const unsigned bits = slabs.meet(node, tau_end, near);
+      Vector begin[8 / width];
+      const unsigned bits = slabs.meet(node, tau_end, begin);
       if (bits != 0) {
         // The nearest is next, and the others are on the stack, the nearer the higher.
-        now = push(bits, node, near, &stack[open]);
+        now = push(bits, node, begin, &stack[open]);
         open += static_cast<std::size_t>(std::popcount(bits)) - 1;
-        continue;
+        return true;
       }
     }
     std::uint64_t top;
     do {
-      if (open == 0) return;
+      if (open == 0) return false;
       top = stack[--open];
     } while (near_of(top) > tau_end);
     now = child_of(top);
+    return true;
   }
-}
+};
 
 // The first hit of a ray, or any. A hit that is certain in floats stays, without a look in doubles, until
 // another is before it for certain. Where floats do not tell, `doubt` does.
@@ -237,7 +234,8 @@ struct HitVisitor {
         }
         if (hits.first[lane] > last) continue;
       }
-      if (doubt.offer(found, {number, static_cast<std::uint32_t>(lane)}, task, tau_end)) return true;
+      if (doubt.offer(found, {number, static_cast<std::uint32_t>(lane)}, task, tau_end))
+        return true;
     }
     return false;
   }
@@ -251,7 +249,8 @@ struct OfferingVisitor {
   Shear shear;
   LeafHits hits;
 
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE OfferingVisitor(const RayMesh& m, const RayBlock& block, std::size_t ray, Query& q)
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE OfferingVisitor(const RayMesh& m, const RayBlock& block,
+                                                      std::size_t ray, Query& q)
       : mesh(m), query(q), shear(block, ray) {}
 
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool visit(std::uint32_t number, float& tau_end) {

@@ -13,7 +13,8 @@ namespace touchstone::ray_tree {
 // `near`, which is not negative, in the upper half and the child in the lower. Keys sort by near, and by
 // number where it is equal.
 inline std::uint64_t key_of(std::int32_t child, float near) {
-  return std::uint64_t{std::bit_cast<std::uint32_t>(near)} << 32 | static_cast<std::uint32_t>(child);
+  return std::uint64_t{std::bit_cast<std::uint32_t>(near)} << 32 |
+         static_cast<std::uint32_t>(child);
 }
 inline std::int32_t child_of(std::uint64_t key) { return static_cast<std::int32_t>(key); }
 inline float near_of(std::uint64_t key) {
