@@ -10,8 +10,8 @@
 //          4. `place` computes the items' boxes again and refits the tree.
 // Departs: boxes of items are those of a broad phase, in floats and rounded outward.
 // Fails:   rounding decides rays that pass a convex shape within some units of the last place of its
-//          size and distance. An item whose matrix has no inverse is `unsupported` for every ray: no
-//          ray is answered as a miss for it.
+//          size and distance. An item whose matrix has no inverse makes every ray `unsupported`, and a solid
+//          hull without faces those `degenerate` that come to it.
 // Cost:    O(log n) a ray where bodies are small; 60 bytes an item besides meshes.
 #include <algorithm>
 #include <array>
@@ -29,12 +29,17 @@
 namespace touchstone {
 namespace {
 
-// The box with margins for poses that are multiplied in doubles.
+// The box with margins for poses that are multiplied in doubles, and so that a flat box has an inside, in
+// which a ray along it is.
 Aabb widened(Aabb box) {
+  float size = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const float size = std::max(std::abs(box.min[k]), std::abs(box.max[k])) * 0x1p-22F;
-    box.min[k] -= size;
-    box.max[k] += size;
+    size = std::max({size, std::abs(box.min[k]), std::abs(box.max[k])});
+  }
+  const float margin = size * 0x1p-22F + 0x1p-60F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.min[k] -= margin;
+    box.max[k] += margin;
   }
   return box;
 }
@@ -42,6 +47,11 @@ Aabb widened(Aabb box) {
 bool is_bounded(const Aabb& box) {
   return std::ranges::all_of(box.min, [](float x) { return std::isfinite(x); }) &&
          std::ranges::all_of(box.max, [](float x) { return std::isfinite(x); });
+}
+
+// True for a solid hull without faces: see make_hull.
+bool has_no_faces(const Shape& shape) {
+  return shape.kind == ShapeKind::hull && shape.hull->dimension == 3 && shape.hull->faces.empty();
 }
 
 Aabb box_of(const TriangleMesh& mesh, const Pose& pose) {
@@ -267,6 +277,10 @@ class WideBvhSceneCast final : public SceneRayCast {
       if (normal.dot(local.direction) > 0) normal = -normal;
       if (normal.isZero(0)) normal.setConstant(Outcome::none);
     } else {
+      if (has_no_faces(*item.shape)) {
+        best.status = Status::degenerate;
+        return false;
+      }
       const auto hit = first_hit(*item.shape, local);
       if (!hit) return false;
       t = hit->t;

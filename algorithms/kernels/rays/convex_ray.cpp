@@ -25,7 +25,10 @@ struct Line {
   Vec3d normal = Vec3d::Constant(Outcome::none);
 
   bool is_empty() const { return !(enter <= leave); }
-  void clear() { leave = -inf; }
+  void clear() {
+    enter = inf;
+    leave = -inf;
+  }
   void enter_at(double t, const Vec3d& n) {
     if (!(t > enter)) return;
     enter = t;

@@ -5,7 +5,8 @@
 //          2. Times are compared by their brackets.
 // Departs: it has no tree, and shares no code with the algorithms that it judges.
 // Fails:   spheres, capsules, boxes, hulls and triangles are exact but for the time, which is within 2^-80
-//          of the displacement; the others have an enclosure. Where a bracket does not tell whether a hit is
+//          of the displacement; the others have an enclosure, which for half-spaces
+//          often tells nothing. Where a bracket does not tell whether a hit is
 //          within t_max, or the oracle of casts does not know, the status is `not_converged`. Normals
 //          are not given. Of parts that are hit at one time, the first is reported.
 // Cost:    O(n) a ray: a tenth of a millisecond a part.

@@ -1,8 +1,6 @@
 // touchstone rays: casts rays at a mesh or a scene, and writes a row for each answer.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>

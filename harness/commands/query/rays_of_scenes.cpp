@@ -39,12 +39,12 @@ std::vector<SceneBody> bodies_at(const scene::Scene& scene, int frame, const std
 }
 
 // The hits of one algorithm, one for each ray.
-struct Cast {
+struct SceneCast {
   const SceneRayCastEntry* entry;
   std::vector<SceneRayHit> hits;
 };
 
-Cast ask(const SceneRayCastEntry& entry, const std::vector<SceneBody>& bodies,
+SceneCast ask_at_scene(const SceneRayCastEntry& entry, const std::vector<SceneBody>& bodies,
          const std::vector<Ray>& rays, const RaysOptions& options) {
   auto solved = process::isolated_answers<SceneRayHit>(
       rays.size(), {.item_seconds = options.time_limit}, [&] {
@@ -61,7 +61,7 @@ Cast ask(const SceneRayCastEntry& entry, const std::vector<SceneBody>& bodies,
   return {&entry, std::move(solved.answers)};
 }
 
-void write_row(files::CsvWriter& csv, std::size_t ray, const Cast& cast) {
+void write_scene_row(files::CsvWriter& csv, std::size_t ray, const SceneCast& cast) {
   const SceneRayHit& hit = cast.hits[ray];
   csv.field(ray).field(cast.entry->info.name).field(to_string(Precision::float64));
   csv.field(hit.hit ? 1 : 0).field(hit.t);
@@ -94,18 +94,18 @@ void cast_rays_at_scene(const RaysOptions& options) {
   const std::vector<SceneBody> bodies = bodies_at(scene, options.frame, options.target);
   const std::vector<Ray> rays = read_rays(options.rays);
   files::check_output(options.out);
-  std::vector<Cast> casts;
+  std::vector<SceneCast> casts;
   casts.reserve(entries.size());
   for (const SceneRayCastEntry* entry : entries)
-    casts.push_back(ask(*entry, bodies, rays, options));
+    casts.push_back(ask_at_scene(*entry, bodies, rays, options));
   files::CsvWriter csv(options.out, {"ray", "algorithm", "scalar", "hit", "t", "triangle", "u", "v",
                                      "status", "body", "part", "normal_x", "normal_y", "normal_z"});
   for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-    for (const Cast& cast : casts) write_row(csv, ray, cast);
+    for (const SceneCast& cast : casts) write_scene_row(csv, ray, cast);
   }
   csv.close();
   std::vector<RaysSummary> summaries;
-  for (const Cast& cast : casts) {
+  for (const SceneCast& cast : casts) {
     summaries.push_back({.name = cast.entry->info.name});
     for (const SceneRayHit& hit : cast.hits) summaries.back().add(hit.hit, hit.status);
   }

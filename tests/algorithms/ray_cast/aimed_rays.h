@@ -56,6 +56,34 @@ inline std::vector<Ray> aimed_rays(const TriangleMesh& mesh, double share, unsig
   return rays;
 }
 
+// Rays in sixteens that go the same way: from one point, or beside each other, at vertices, edges and faces
+// of triangles that are numbered one after the other.
+inline std::vector<Ray> rays_in_sixteens(const TriangleMesh& mesh, int count, unsigned seed) {
+  Random random(seed);
+  std::vector<Ray> rays;
+  for (int i = 0; i < count && !mesh.triangles.empty(); ++i) {
+    const int first = random.below(static_cast<int>(mesh.triangles.size()));
+    const auto vertex = [&](int triangle, std::size_t k) {
+      const auto number = static_cast<std::size_t>(first + triangle) % mesh.triangles.size();
+      return mesh.vertices[mesh.triangles[number][k]];
+    };
+    const Vec3d way = on_grid(Vec3d(24 * random.direction()));
+    const Vec3d eye = vertex(0, 0) + way;
+    for (int k = 0; k < 16; ++k) {
+      const Vec3d a = vertex(k / 4, 0), b = vertex(k / 4, 1), c = vertex(k / 4, 2);
+      const Vec3d target = k % 4 == 0   ? a
+                           : k % 4 == 1 ? Vec3d((a + b) / 2)
+                           : k % 4 == 2 ? Vec3d((a + b + 2 * c) / 4)
+                                        : Vec3d(b + (b - a) / 8);
+      const Vec3d from = i % 2 == 0 ? eye : Vec3d(target + way);
+      if (from == target) continue;
+      const double t_max = i % 5 == 0 ? 1 : std::numeric_limits<double>::infinity();
+      rays.push_back({from, target - from, t_max});
+    }
+  }
+  return rays;
+}
+
 // Rays from around the mesh in any direction, half of them at a point near one of its triangles.
 inline std::vector<Ray> random_rays(const TriangleMesh& mesh, int count, unsigned seed) {
   Random random(seed);

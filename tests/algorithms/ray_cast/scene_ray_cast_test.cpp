@@ -42,7 +42,7 @@ Shape shape_of(ShapeKind kind, reference::Random& random) {
   if (kind == ShapeKind::hull) {
     std::vector<Vec3d> points;
     for (int i = 0; i < 12; ++i) points.push_back(random.vector(1));
-    shape.hull = std::make_shared<Hull>(convex_hull(points));
+    shape.hull = make_hull(points);
   }
   return shape;
 }
@@ -75,12 +75,12 @@ std::vector<Ray> rays_at(const std::vector<SceneBody>& bodies, int count,
   return rays;
 }
 
-struct Outcomes {
-  int hits = 0, misses = 0, unknown = 0;
+struct SceneOutcomes {
+  int hits = 0, misses = 0, unknown = 0, normals = 0;
 };
 
 void expect_as_exact(const std::vector<SceneBody>& bodies, const std::vector<Ray>& rays,
-                     Outcomes& outcomes) {
+                     SceneOutcomes& outcomes) {
   const auto exact = cast_by("exact", RayTask::closest, bodies, rays);
   const auto closest = cast_by("wide-bvh", RayTask::closest, bodies, rays);
   const auto any = cast_by("wide-bvh", RayTask::any, bodies, rays);
@@ -98,6 +98,9 @@ void expect_as_exact(const std::vector<SceneBody>& bodies, const std::vector<Ray
     const double reach = exact[i].t + 1e-3 / rays[i].direction.norm();
     ASSERT_NEAR(closest[i].t, exact[i].t, 1e-7 * reach);
     if (closest[i].t > 0) {
+      // Points and segments have no normal.
+      if (std::isnan(closest[i].normal[0])) continue;
+      ++outcomes.normals;
       ASSERT_NEAR(closest[i].normal.norm(), 1, 1e-12);
       ASSERT_LE(closest[i].normal.dot(rays[i].direction), 1e-6 * rays[i].direction.norm());
     } else {
@@ -110,33 +113,36 @@ TEST(SceneRayCasts, AtEveryKindOfShapeAreAsTheOracleSays) {
   reference::Random random(5);
   for (const ShapeKind kind : all_shape_kinds) {
     SCOPED_TRACE(std::string(to_string(kind)));
-    Outcomes outcomes;
-    for (int k = 0; k < drawn(6, 1); ++k) {
+    SceneOutcomes outcomes;
+    for (int k = 0; k < drawn(3, 1); ++k) {
       const std::vector<SceneBody> bodies = {body_of(shape_of(kind, random), pose_of(random))};
-      expect_as_exact(bodies, rays_at(bodies, 40, random), outcomes);
+      expect_as_exact(bodies, rays_at(bodies, 30, random), outcomes);
       if (HasFatalFailure()) return;
     }
-    EXPECT_GT(outcomes.hits, 40 / one_in);
-    if (kind != ShapeKind::halfspace) EXPECT_GT(outcomes.misses, 20 / one_in);
-    EXPECT_LT(outcomes.unknown, 30);
+    EXPECT_GT(outcomes.hits, 15 / one_in);
+    EXPECT_GT(outcomes.normals, 5 / one_in);
+    if (kind != ShapeKind::halfspace) {
+      EXPECT_GT(outcomes.misses, 8 / one_in);
+    }
+    // The enclosures of half-spaces often tell nothing.
+    if (kind != ShapeKind::halfspace) {
+      EXPECT_LT(outcomes.unknown, 10);
+    }
   }
 }
 
 // Shapes without an inside, and without a size on some axis.
 TEST(SceneRayCasts, AtFlatShapesAreAsTheOracleSays) {
-  Outcomes outcomes;
+  SceneOutcomes outcomes;
   std::vector<Shape> shapes(5);
   shapes[0].kind = ShapeKind::box;
   shapes[0].half_extents = {1, 0, 2};
   shapes[1].kind = ShapeKind::capsule;
   shapes[1].half_length = 1;
   shapes[1].radius = 0.5;
-  for (std::size_t n = 2; n < 5; ++n) {
-    shapes[n].kind = ShapeKind::hull;
-    const std::vector<Vec3d> points = {{0, 0, 1}, {2, 0, 1}, {0, 2, 1}, {2, 2, 1}};
-    shapes[n].hull = std::make_shared<Hull>(convex_hull(
-        {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(n == 2 ? 4 : 5 - n)}));
-  }
+  shapes[2] = hull_of({{0, 0, 1}, {2, 0, 1}, {0, 2, 1}, {2, 2, 1}});
+  shapes[3] = hull_of({{0, 0, 1}, {2, 0, 1}});
+  shapes[4] = hull_of({{0, 0, 1}});
   for (const Shape& shape : shapes) {
     std::vector<Ray> rays;
     for (const double x : {0.0, 0.5, 1.0, 2.0, 2.5}) {
@@ -170,11 +176,11 @@ TEST(SceneRayCasts, AtWholeScenesAreAsTheOracleSays) {
   mesh.body.mesh = std::make_shared<TriangleMesh>(reference::ellipsoid_mesh({1, 2, 1}, 8, 6));
   mesh.pose = pose_of(random);
   bodies.push_back(mesh);
-  Outcomes outcomes;
-  const std::vector<Ray> rays = rays_at(bodies, drawn(120, 20), random);
+  SceneOutcomes outcomes;
+  const std::vector<Ray> rays = rays_at(bodies, drawn(40, 20), random);
   expect_as_exact(bodies, rays, outcomes);
   if (HasFatalFailure()) return;
-  EXPECT_GT(outcomes.hits, 40 / one_in);
+  EXPECT_GT(outcomes.hits, 5);
 
   const auto cast = find_scene_ray_cast("wide-bvh")->make();
   cast->bind(bodies);
