@@ -79,8 +79,9 @@ void cast_rays(const RaysOptions& options) {
   csv.close();
   std::vector<RaysSummary> summaries;
   for (const Cast& cast : casts) {
-    summaries.push_back({.name = cast.entry->info.name});
-    for (const RayHit& hit : cast.hits) summaries.back().add(hit.hit, hit.status);
+    RaysSummary& summary = summaries.emplace_back();
+    summary.name = cast.entry->info.name;
+    for (const RayHit& hit : cast.hits) summary.add(hit.hit, hit.status);
   }
   print_summaries(summaries);
 }

@@ -25,7 +25,7 @@ std::vector<Ray> read_rays(const std::string& file);
 struct RaysSummary {
   std::string name;
   std::size_t hits = 0, misses = 0;
-  std::map<Status, std::size_t> statuses;
+  std::map<Status, std::size_t> statuses = {};
 
   void add(bool hit, Status status) {
     ++(hit ? hits : misses);

@@ -45,7 +45,7 @@ struct SceneCast {
 };
 
 SceneCast ask_at_scene(const SceneRayCastEntry& entry, const std::vector<SceneBody>& bodies,
-         const std::vector<Ray>& rays, const RaysOptions& options) {
+                       const std::vector<Ray>& rays, const RaysOptions& options) {
   auto solved = process::isolated_answers<SceneRayHit>(
       rays.size(), {.item_seconds = options.time_limit}, [&] {
         std::shared_ptr<SceneRayCast> caster = entry.make();
@@ -106,8 +106,9 @@ void cast_rays_at_scene(const RaysOptions& options) {
   csv.close();
   std::vector<RaysSummary> summaries;
   for (const SceneCast& cast : casts) {
-    summaries.push_back({.name = cast.entry->info.name});
-    for (const SceneRayHit& hit : cast.hits) summaries.back().add(hit.hit, hit.status);
+    RaysSummary& summary = summaries.emplace_back();
+    summary.name = cast.entry->info.name;
+    for (const SceneRayHit& hit : cast.hits) summary.add(hit.hit, hit.status);
   }
   print_summaries(summaries);
 }
