@@ -13,6 +13,7 @@ std::vector<BroadPhaseEntry> list_broad_phases();
 std::vector<NarrowPhaseEntry> list_narrow_phases();
 std::vector<ManifoldEntry> list_contact_manifolds();
 std::vector<RayCastEntry> list_ray_casts();
+std::vector<SceneRayCastEntry> list_scene_ray_casts();
 std::vector<PointQueryEntry> list_point_queries();
 std::vector<MidPhaseEntry> list_mid_phases();
 std::vector<ConcaveEntry> list_concave_phases();
@@ -66,6 +67,9 @@ std::span<const ManifoldEntry> contact_manifolds() {
   return list_of<ManifoldEntry, list_contact_manifolds>();
 }
 std::span<const RayCastEntry> ray_casts() { return list_of<RayCastEntry, list_ray_casts>(); }
+std::span<const SceneRayCastEntry> scene_ray_casts() {
+  return list_of<SceneRayCastEntry, list_scene_ray_casts>();
+}
 std::span<const PointQueryEntry> point_queries() {
   return list_of<PointQueryEntry, list_point_queries>();
 }
@@ -86,6 +90,9 @@ const ManifoldEntry* find_contact_manifold(std::string_view name) {
   return find(contact_manifolds(), name);
 }
 const RayCastEntry* find_ray_cast(std::string_view name) { return find(ray_casts(), name); }
+const SceneRayCastEntry* find_scene_ray_cast(std::string_view name) {
+  return find(scene_ray_casts(), name);
+}
 const PointQueryEntry* find_point_query(std::string_view name) {
   return find(point_queries(), name);
 }

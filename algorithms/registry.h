@@ -18,6 +18,7 @@
 #include "algorithms/narrow_phase.h"
 #include "algorithms/point_query.h"
 #include "algorithms/ray_cast.h"
+#include "algorithms/scene_ray_cast.h"
 
 namespace touchstone {
 
@@ -26,6 +27,7 @@ std::span<const BroadPhaseEntry> broad_phases();
 std::span<const NarrowPhaseEntry> narrow_phases();
 std::span<const ManifoldEntry> contact_manifolds();
 std::span<const RayCastEntry> ray_casts();
+std::span<const SceneRayCastEntry> scene_ray_casts();
 std::span<const PointQueryEntry> point_queries();
 std::span<const MidPhaseEntry> mid_phases();
 std::span<const ConcaveEntry> concave_phases();
@@ -37,6 +39,7 @@ const BroadPhaseEntry* find_broad_phase(std::string_view name);
 const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
 const ManifoldEntry* find_contact_manifold(std::string_view name);
 const RayCastEntry* find_ray_cast(std::string_view name);
+const SceneRayCastEntry* find_scene_ray_cast(std::string_view name);
 const PointQueryEntry* find_point_query(std::string_view name);
 const MidPhaseEntry* find_mid_phase(std::string_view name);
 const ConcaveEntry* find_concave_phase(std::string_view name);

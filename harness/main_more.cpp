@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
                                 {"stress", commands::add_stress},
                                 {"manifold", commands::add_manifold},
                                 {"rays", commands::add_rays},
+                                {"points", commands::add_points},
                                 {"ccd", commands::add_ccd},
                                 {"cast", commands::add_cast},
                                 {"draw", commands::add_draw},

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "algorithms/kernels/rays/ray_walk.h"
 #include "algorithms/kernels/rays/winding_query.h"
@@ -61,30 +62,39 @@ class WideBvhPoints final : public PointQuery {
     for (std::size_t i = 0; i < points.size(); ++i) {
       answers[i] = {};
       answers[i].status = points[i].allFinite() ? Status::ok : Status::degenerate;
-      if (!points[i].allFinite()) continue;
-      if (task == PointTask::side) {
-        find_side(points[i], answers[i]);
-      } else if (mesh_->triangles() > 0) {
+      if (task == PointTask::closest && answers[i].status == Status::ok && mesh_->triangles() > 0) {
         find_closest(points[i], answers[i]);
       }
     }
+    if (task == PointTask::side) find_sides(points, answers);
   }
 
  private:
-  void find_side(const Vec3d& point, PointAnswer& answer) const {
-    WindingQuery query(point);
-    ray_tree::LocalRay local;
-    if (mesh_->triangles() > 0) {
-      // A point that is too far for that is outside.
-      if (localise(*mesh_, query.ray(), local)) walk(*mesh_, local, RayTask::any, query);
+  // Points that are finite, by the triangles above them, block by block.
+  void find_sides(std::span<const Vec3d> points, std::span<PointAnswer> answers) const {
+    std::vector<WindingQuery> queries;
+    std::vector<PointAnswer*> asked;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (answers[i].status == Status::ok) {
+        queries.emplace_back(points[i]);
+        asked.push_back(&answers[i]);
+      }
+      if (queries.size() == ray_tree::RayBlock::most ||
+          (i + 1 == points.size() && !queries.empty())) {
+        if (mesh_->triangles() > 0) ray_tree::wind_each(*mesh_, queries);
+        for (std::size_t k = 0; k < queries.size(); ++k) {
+          if (queries[k].is_undecided()) {
+            asked[k]->status = Status::degenerate;
+          } else {
+            asked[k]->side = queries[k].is_on_surface()  ? PointSide::surface
+                             : queries[k].winding() != 0 ? PointSide::inside
+                                                         : PointSide::outside;
+          }
+        }
+        queries.clear();
+        asked.clear();
+      }
     }
-    if (query.is_undecided()) {
-      answer.status = Status::degenerate;
-      return;
-    }
-    answer.side = query.is_on_surface()
-                      ? PointSide::surface
-                      : (query.winding() != 0 ? PointSide::inside : PointSide::outside);
   }
 
   struct Open {

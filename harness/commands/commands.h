@@ -27,6 +27,7 @@ void add_soak(Arguments command);
 void add_stress(Arguments command);
 void add_manifold(Arguments command);
 void add_rays(Arguments command);
+void add_points(Arguments command);
 void add_ccd(Arguments command);
 void add_cast(Arguments command);
 void add_draw(Arguments command);

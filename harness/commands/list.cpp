@@ -52,6 +52,10 @@ std::vector<Listed> all_algorithms() {
   for (const RayCastEntry& entry : ray_casts()) {
     all.push_back({&entry.info, "ray", joined(entry.tasks), joined(entry.scalars)});
   }
+  for (const SceneRayCastEntry& entry : scene_ray_casts()) {
+    all.push_back({&entry.info, "scene-ray", joined(entry.tasks),
+                   std::string(to_string(Precision::float64))});
+  }
   for (const PointQueryEntry& entry : point_queries()) {
     all.push_back(
         {&entry.info, "point", joined(entry.tasks), std::string(to_string(Precision::float64))});
@@ -106,7 +110,7 @@ std::string as_table(const std::vector<Listed>& all) {
   std::string text;
   const auto line = [&](std::string_view n, std::string_view kind, std::string_view origin,
                         std::string_view t, std::string_view s, std::string_view about) {
-    text += fmt::format("{:<{}}  {:<8}  {:<6}  {:<{}}  {:<{}}  {}\n", n, name, kind, origin, t,
+    text += fmt::format("{:<{}}  {:<9}  {:<6}  {:<{}}  {:<{}}  {}\n", n, name, kind, origin, t,
                         tasks, s, scalars, about);
   };
   line("name", "kind", "origin", "tasks", "scalars", "from");

@@ -141,4 +141,26 @@ std::vector<Ray> random_rays(const TriangleMesh& mesh, int count, std::uint64_t 
   return rays;
 }
 
+std::vector<Ray> rays_in_sixteens(const TriangleMesh& mesh, int count, std::uint64_t seed) {
+  RandomDraws draws(seed);
+  std::vector<Ray> rays;
+  for (int i = 0; i < count && !mesh.triangles.empty(); ++i) {
+    const int first = draws.below(static_cast<int>(mesh.triangles.size()));
+    const auto triangle = [&](int next) {
+      return AimedTriangle(mesh, static_cast<std::size_t>(first + next) % mesh.triangles.size());
+    };
+    const Vec3d way = on_grid(Vec3d(24 * draws.direction()));
+    const Vec3d eye = triangle(0).a + way;
+    for (int k = 0; k < 16; ++k) {
+      const AimedTriangle t = triangle(k / 4);
+      const std::array targets = {t.a, t.middle(), t.inside(), Vec3d(t.b + (t.b - t.a) / 8)};
+      const Vec3d& target = targets[static_cast<std::size_t>(k % 4)];
+      const Vec3d from = i % 2 == 0 ? eye : Vec3d(target + way);
+      if (from == target) continue;
+      rays.push_back({from, target - from, i % 5 == 0 ? 1 : inf});
+    }
+  }
+  return rays;
+}
+
 }  // namespace touchstone::families

@@ -43,5 +43,8 @@ Ray ray_from(double distance, const TriangleMesh& mesh, std::size_t triangle, Dr
 std::vector<Ray> aimed_rays(const TriangleMesh& mesh, double share, std::uint64_t seed);
 // Random rays.
 std::vector<Ray> random_rays(const TriangleMesh& mesh, int count, std::uint64_t seed);
+// Rays in sixteens that go the same way: from one point, or beside each other, at vertices, edges and
+// faces of triangles that are numbered one after the other, and past them.
+std::vector<Ray> rays_in_sixteens(const TriangleMesh& mesh, int count, std::uint64_t seed);
 
 }  // namespace touchstone::families

@@ -63,7 +63,7 @@ bool is_contract(const std::string& path) {
       "concave_phase",    "cast",         "ccd",
       "encoding",         "limit",        "algorithm_info",
       "broad_phase_work", "pair_query",   "signed_by_two",
-      "within_margin",    "moving_pairs"};
+      "within_margin",    "moving_pairs",  "scene_ray_cast"};
   return path.starts_with("algorithms/") && path.ends_with(".h") &&
          contracts.contains(path.substr(11, path.size() - 13));
 }
@@ -96,7 +96,8 @@ const std::vector<std::string> harness_rooms = {
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
 const std::set<std::string> algorithm_rooms = {"broad_phase", "narrow_phase", "manifold",
                                                "ray_cast",    "point_query",  "mid_phase",
-                                               "concave",     "cast",         "ccd"};
+                                               "concave",     "cast",         "ccd",
+                                               "scene_ray_cast"};
 bool is_in_algorithms(const std::string& path) {
   return std::ranges::any_of(algorithm_rooms,
                              [&](const auto& room) { return in(path, "algorithms/" + room); });

@@ -57,6 +57,13 @@ TEST(Registry, RayCastsAreWellDescribed) {
   }
 }
 
+TEST(Registry, SceneRayCastsAreWellDescribed) {
+  check_info(scene_ray_casts());
+  for (const SceneRayCastEntry& entry : scene_ray_casts()) {
+    EXPECT_FALSE(entry.tasks.empty()) << entry.info.name;
+  }
+}
+
 TEST(Registry, MidPhasesAndConcavePhasesAreWellDescribed) {
   check_info(mid_phases());
   check_info(concave_phases());
@@ -100,6 +107,7 @@ TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
   expect_found(narrow_phases(), find_narrow_phase);
   expect_found(contact_manifolds(), find_contact_manifold);
   expect_found(ray_casts(), find_ray_cast);
+  expect_found(scene_ray_casts(), find_scene_ray_cast);
   expect_found(point_queries(), find_point_query);
   expect_found(mid_phases(), find_mid_phase);
   expect_found(concave_phases(), find_concave_phase);

@@ -1,4 +1,4 @@
-// The ray in the tree's frame, and the choice of the instruction level.
+// Rays in blocks: their choice of the instruction level, and those that floats do not decide.
 #include "algorithms/kernels/rays/ray_walk.h"
 
 #include <algorithm>
@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "algorithms/kernels/rays/found_hit.h"
+#include "algorithms/kernels/rays/sorted_children.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone::ray_tree {
@@ -15,115 +17,107 @@ namespace {
 constexpr double unit = 0x1p-53;        // a double's rounding
 constexpr double float_unit = 0x1p-24;  // a float's
 
-// A child whose box is met at tau = near.
-struct Met {
-  std::int32_t child;
-  float near;
+// A float on that side of x to which `outward` (1 or -1) points; off by less than two of its digits.
+inline float widened(double x, float outward) {
+  const auto f = static_cast<float>(x);
+  return f + outward * (std::abs(f) * 0x1p-23F + 0x1p-100F);
+}
+
+constexpr std::size_t rays_in_turn = 2;
+
+struct HitNumbers {
+  RayBlock::Each<double> t, u, v;
 };
 
-// A float that is not less than x, and one that is not greater; off by less than two of its digits.
-float widened_up(double x) {
-  const auto f = static_cast<float>(x);
-  return f + std::abs(f) * 0x1p-23F + 0x1p-100F;
-}
-float widened_down(double x) { return -widened_up(-x); }
-
-// 2^exponent, for exponents of normal numbers.
-double power_of_two(int exponent) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
-}
-int exponent_of(double normal) {
-  return static_cast<int>(std::bit_cast<std::uint64_t>(normal) >> 52 & 0x7ff) - 1023;
+// The hit of a ray that is tested against every triangle.
+RayHit hit_of_all(const RayMesh& mesh, RayTask task, const Ray& ray) {
+  if (!is_proper(ray)) return improper_hit();
+  RayQuery query(ray);
+  for (std::uint32_t k = 0; k < mesh.triangles(); ++k) {
+    const auto [a, b, c] = mesh.corners(k);
+    if (query.offer(k, a, b, c) && task == RayTask::any) break;
+  }
+  return query.hit();
 }
 
-#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/rays/ray_walk.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/rays/ray_levels.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-template <class Query>
-void dispatch(const RayMesh& mesh, const LocalRay& local, RayTask task, Query& query) {
-  switch (isa()) {
-    case Isa::avx512: return avx512::walk_tree(mesh, local, task, query);
-    case Isa::avx2: return avx2::walk_tree(mesh, local, task, query);
-    case Isa::baseline: return baseline::walk_tree(mesh, local, task, query);
+// Rays as arrays. Behind the last one it comes again, so that all lanes have numbers.
+void load(std::span<const Ray> rays, RayBlock& block) {
+  block.count = rays.size();
+  for (std::size_t i = 0; i < RayBlock::most; ++i) {
+    const Ray& ray = rays[std::min(i, rays.size() - 1)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      block.from[k][i] = ray.origin[static_cast<Eigen::Index>(k)];
+      block.direction[k][i] = ray.direction[static_cast<Eigen::Index>(k)];
+    }
+    block.t_max[i] = ray.t_max;
   }
 }
 
 }  // namespace
 
-float LocalRay::tau_end(double t) const {
-  return widened_up((t * per_t) * (1 + 0x1p-40) - moved * (1 - 0x1p-40) +
-                    static_cast<double>(tau_off));
+float RayBlock::tau_end_of(std::size_t ray, double t) const {
+  return widened((t * per_t[ray]) * (1 + 0x1p-40) - moved[ray] * (1 - 0x1p-40) +
+                     static_cast<double>(tau_off[ray]),
+                 1);
 }
 
-bool localise(const RayMesh& mesh, const Ray& ray, LocalRay& local) {
-  const Frame& frame = mesh.frame();
-  const Vec3d from = (ray.origin - frame.centre) * frame.scale;
-  const double reach = from.cwiseAbs().maxCoeff();
-  if (!(reach < 0x1p30)) return false;
-  Eigen::Index z = 0;
-  const double greatest = ray.direction.cwiseAbs().maxCoeff(&z);
-  const int exponent = exponent_of(greatest);
-  if (std::abs(exponent) > 900) return false;
-  const Vec3d direction = ray.direction * power_of_two(-exponent);
-  local.per_t = frame.scale * power_of_two(exponent);
-
-  // The tree lies within 1 of the frame's centre on each axis. The ray comes that near at `enter` at
-  // the soonest; the margin is far more than the rounding.
-  double enter = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double gap = std::abs(from[axis]) - 1;
-    if (gap > 0 && from[axis] * direction[axis] < 0) {
-      enter = std::max(enter, gap / std::abs(direction[axis]));
-    }
-  }
-  // A ray that comes near after so long a way misses the mesh, or comes nearer on another axis.
-  local.moved = enter < 0x1p31 ? std::max(0.0, enter * (1 - 0x1p-40) - 0x1p-10) : 0.0;
-  const Vec3d origin = from + local.moved * direction;
-  const double off_double = 8 * unit * (reach + 2 * local.moved);
-  const double origin_reach = origin.cwiseAbs().maxCoeff();
-
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    const double along = std::abs(direction[k]) < 0x1p-60 ? 0.0 : direction[k];
-    const bool forward = along >= 0;
-    // 2^-50 is more than a component that was left out moves the ray over the whole way.
-    const double off = off_double + 0x1p-50;
-    const double ahead = origin[k] + off, behind = origin[k] - off;
-    local.near_origin[axis] = forward ? widened_up(ahead) : widened_down(behind);
-    local.far_origin[axis] = forward ? widened_down(behind) : widened_up(ahead);
-    // Zero counts as positive, whatever its sign.
-    local.inverse[axis] = 1 / static_cast<float>(along == 0 ? 0.0 : along);
-    local.near[axis] = forward ? axis : axis + 3;
-    local.far[axis] = forward ? axis + 3 : axis;
-  }
-  local.axes = {static_cast<std::size_t>((z + 1) % 3), static_cast<std::size_t>((z + 2) % 3),
-                static_cast<std::size_t>(z)};
-  for (std::size_t k = 0; k < 3; ++k) {
-    local.origin[k] = static_cast<float>(origin[static_cast<Eigen::Index>(local.axes[k])]);
-  }
-  const auto along = [&](std::size_t k) {
-    return direction[static_cast<Eigen::Index>(local.axes[k])];
-  };
-  const double inverse = 1 / along(2);
-  local.shear_x = static_cast<float>(along(0) * inverse);
-  local.shear_y = static_cast<float>(along(1) * inverse);
-  local.inverse_z = static_cast<float>(inverse);
-  // A vertex seen from the origin is up to `seen` long. Its coordinate is off by the vertex's own
-  // rounding (none if the leaves are exact), the origin's in doubles and in floats, and one of the
-  // difference. The sheared one has two such errors, the shear's rounding, a product's and a sum's.
-  const double seen = 1 + origin_reach;
-  const double coordinate = (mesh.is_exact() ? 0 : float_unit) + off_double +
-                            float_unit * origin_reach + float_unit * seen;
-  local.off = widened_up(1.01 * (2 * coordinate + 4 * float_unit * seen));
-  local.tau_off = widened_up(1.01 * (coordinate + 3 * float_unit * seen));
-  return true;
+bool DoubtfulRay::offer(const FoundHit& one) {
+  const Leaf& leaf = mesh_.leaves()[one.leaf];
+  const auto [a, b, c] = mesh_.corners(leaf, one.lane);
+  return query_->offer(leaf.triangle[one.lane], a, b, c);
 }
 
-void walk(const RayMesh& mesh, const LocalRay& local, RayTask task, RayQuery& query) {
-  dispatch(mesh, local, task, query);
+bool DoubtfulRay::offer(const FoundHit& found, const FoundHit& other, RayTask task,
+                        float& tau_end) {
+  if (!query_) {
+    const auto at = [&](const auto& of) { return Vec3d(of[0][ray_], of[1][ray_], of[2][ray_]); };
+    query_.emplace(Ray{at(block_.from), at(block_.direction), block_.t_max[ray_]});
+  }
+  if (found.is_found() && found != offered_) {
+    offer(found);
+    offered_ = found;
+  }
+  if (offer(other) && task == RayTask::any) return true;
+  // A box's near end has four roundings.
+  const float end = block_.tau_end_of(ray_, query_->t_end());
+  tau_end = std::min(tau_end, end * (1 + 16 * static_cast<float>(float_unit)));
+  return false;
 }
-void walk(const RayMesh& mesh, const LocalRay& local, RayTask task, WindingQuery& query) {
-  dispatch(mesh, local, task, query);
+
+RayHit DoubtfulRay::hit(const FoundHit& found) {
+  if (found.is_found() && found != offered_) offer(found);
+  return query_->hit();
+}
+
+void cast_each(const RayMesh& mesh, RayTask task, std::span<const Ray> rays,
+               std::span<RayHit> hits) {
+  if (mesh.triangles() == 0) {
+    std::ranges::transform(rays, hits.begin(),
+                           [&](const Ray& ray) { return hit_of_all(mesh, task, ray); });
+    return;
+  }
+  RayBlock block;
+  load(rays, block);
+  switch (isa()) {
+    case Isa::avx512: return avx512::cast_block(mesh, task, rays, block, hits);
+    case Isa::avx2: return avx2::cast_block(mesh, task, rays, block, hits);
+    case Isa::baseline: return baseline::cast_block(mesh, task, rays, block, hits);
+  }
+}
+
+void wind_each(const RayMesh& mesh, std::span<WindingQuery> queries) {
+  std::array<Ray, RayBlock::most> rays;
+  for (std::size_t i = 0; i < queries.size(); ++i) rays[i] = queries[i].ray();
+  RayBlock block;
+  load(std::span(rays).first(queries.size()), block);
+  switch (isa()) {
+    case Isa::avx512: return avx512::wind_block(mesh, queries, block);
+    case Isa::avx2: return avx2::wind_block(mesh, queries, block);
+    case Isa::baseline: return baseline::wind_block(mesh, queries, block);
+  }
 }
 
 }  // namespace touchstone::ray_tree

@@ -1,6 +1,6 @@
-// The loops of ray_walk.h. ray_walk.cpp includes this file once for each level of vector instructions,
-// inside that level's namespace. A node and a leaf have eight lanes, so the widest level uses half
-// of its lanes.
+// The walk of one ray through the tree. ray_walk.cpp includes this file once for each level of vector
+// instructions, inside that level's namespace. A node and a leaf have eight lanes, so the widest level
+// uses half of its lanes.
 
 #if defined(__x86_64__)
 using Lanes = std::conditional_t<(Simd<float>::width > 8), simd::avx2::Simd<float>, Simd<float>>;
@@ -12,72 +12,84 @@ using Vector = Lanes::Vector;
 // Lanes [part, part + width) of the eight.
 constexpr std::size_t width = Lanes::width;
 
-// What a node's boxes are met with.
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector all(float x) { return Lanes::broadcast(x); }
+
+// A ray at a node's boxes.
 struct Slabs {
-  Vector near_x, near_y, near_z, far_x, far_y, far_z;  // origins of near and far planes
-  Vector inverse_x, inverse_y, inverse_z;
-  const LocalRay& ray;
+  const RayBlock& block;
+  const std::size_t ray;
+  std::array<std::size_t, 3> near, far;  // which of a node's planes is met first on each axis
 
-  TOUCHSTONE_TARGET explicit Slabs(const LocalRay& r)
-      : near_x(Lanes::broadcast(r.near_origin[0])),
-        near_y(Lanes::broadcast(r.near_origin[1])),
-        near_z(Lanes::broadcast(r.near_origin[2])),
-        far_x(Lanes::broadcast(r.far_origin[0])),
-        far_y(Lanes::broadcast(r.far_origin[1])),
-        far_z(Lanes::broadcast(r.far_origin[2])),
-        inverse_x(Lanes::broadcast(r.inverse[0])),
-        inverse_y(Lanes::broadcast(r.inverse[1])),
-        inverse_z(Lanes::broadcast(r.inverse[2])),
-        ray(r) {}
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Slabs(const RayBlock& b, std::size_t r) : block(b), ray(r) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      near[k] = k + 3 * std::size_t{block.backward[k] >> ray & 1};
+      far[k] = 2 * k + 3 - near[k];
+    }
+  }
 
-  // The children that the ray meets before tau_end, as bits; `near` gets where. A NaN, of a plane at
-  // the origin of a ray along it, is the first operand of min and max, which then give the second.
+  // The times at which the ray meets planes on an axis.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector at(const WideNode& node, std::size_t plane,
+                                                const RayBlock::Each<float>& origin,
+                                                std::size_t axis, std::size_t part) const {
+    return (Lanes::load(&node.planes[plane][part]) - all(origin[ray])) *
+           all(block.inverse[axis][ray]);
+  }
+
+  // The children that the ray meets before tau_end, as bits; `begin` gets where.
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned meet(const WideNode& node, float tau_end,
-                                                    float* near) const {
+                                                    Vector* begin) const {
     // Both ends have four roundings (two of the inverse), so that they change places by less than
     // nine units.
-    const Vector more = Lanes::broadcast(1 + 16 * static_cast<float>(float_unit));
-    const auto& planes = node.planes;
+    const Vector more = all(1 + 16 * static_cast<float>(float_unit));
     unsigned bits = 0;
     for (std::size_t part = 0; part < 8; part += width) {
-      const Vector begin_x = (Lanes::load(&planes[ray.near[0]][part]) - near_x) * inverse_x;
-      const Vector begin_y = (Lanes::load(&planes[ray.near[1]][part]) - near_y) * inverse_y;
-      const Vector begin_z = (Lanes::load(&planes[ray.near[2]][part]) - near_z) * inverse_z;
-      const Vector end_x = (Lanes::load(&planes[ray.far[0]][part]) - far_x) * inverse_x;
-      const Vector end_y = (Lanes::load(&planes[ray.far[1]][part]) - far_y) * inverse_y;
-      const Vector end_z = (Lanes::load(&planes[ray.far[2]][part]) - far_z) * inverse_z;
-      const Vector begin =
-          Lanes::max(begin_x, Lanes::max(begin_y, Lanes::max(begin_z, Lanes::broadcast(0))));
-      const Vector end =
-          Lanes::min(end_x, Lanes::min(end_y, Lanes::min(end_z, Lanes::broadcast(tau_end))));
-      Lanes::store(near + part, begin);
-      bits |= Lanes::to_bits(Lanes::less_equal(begin, end * more)) << part;
+      Vector first = all(0), last = all(tau_end);
+      for (std::size_t k = 0; k < 3; ++k) {
+        first = Lanes::max(at(node, near[k], block.near_origin[k], k, part), first);
+        last = Lanes::min(at(node, far[k], block.far_origin[k], k, part), last);
+      }
+      begin[part / width] = first;
+      bits |= Lanes::to_bits(Lanes::less_equal(first, last * more)) << part;
     }
     return bits;
   }
 };
 
-// Vertex k of each triangle from the ray's origin, on one of the ray's axes.
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector seen(const Leaf& leaf, const LocalRay& ray,
-                                                std::size_t k, std::size_t axis, std::size_t part) {
-  return Lanes::load(&leaf.corners[3 * k + ray.axes[axis]][part]) -
-         Lanes::broadcast(ray.origin[axis]);
-}
+// A ray at a leaf's triangles.
+struct Shear {
+  const RayBlock& block;
+  const std::size_t ray;
+  const std::array<std::size_t, 3> axes;
 
-// The triangles of a leaf that the ray may hit at tau = 0 to tau_end, as bits.
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned possible_hits(const Leaf& leaf, const LocalRay& ray,
-                                                           float tau_end) {
-  const Vector shear_x = Lanes::broadcast(ray.shear_x), shear_y = Lanes::broadcast(ray.shear_y);
-  const Vector inverse = Lanes::broadcast(ray.inverse_z);
-  const Vector off = Lanes::broadcast(ray.off);
-  unsigned bits = 0;
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Shear(const RayBlock& b, std::size_t r)
+      : block(b), ray(r), axes(b.axes(r)) {}
+
+  // A vertex of each triangle from the ray's origin, on one of the ray's axes.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector seen(const Leaf& leaf, std::size_t vertex,
+                                                  std::size_t axis, std::size_t part) const {
+    return Lanes::load(&leaf.corners[3 * vertex + axes[axis]][part]) - all(block.origin[axis][ray]);
+  }
+};
+
+// The triangles of a leaf that a ray may hit before tau_end, and those of them whose inside it meets for
+// certain, as bits; for the latter, tau is from first to last.
+struct LeafHits {
+  unsigned possible = 0, certain = 0;
+  alignas(32) std::array<float, 8> first, last;
+};
+
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void meet(const Leaf& leaf, const Shear& ray, float tau_end,
+                                              LeafHits& hits) {
+  hits.possible = hits.certain = 0;
+  const Vector zero = all(0), sign = all(ray.block.sign_z[ray.ray]);
+  const Vector shear_x = all(ray.block.shear_x[ray.ray]), shear_y = all(ray.block.shear_y[ray.ray]);
+  const Vector off = all(ray.block.off[ray.ray]), tau_off = all(ray.block.tau_off[ray.ray]);
   for (std::size_t part = 0; part < 8; part += width) {
     Vector x[3], y[3], tau[3], side[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector z = seen(leaf, ray, k, 2, part);
-      x[k] = seen(leaf, ray, k, 0, part) - shear_x * z;
-      y[k] = seen(leaf, ray, k, 1, part) - shear_y * z;
-      tau[k] = z * inverse;
+      tau[k] = ray.seen(leaf, k, 2, part) * sign;
+      x[k] = ray.seen(leaf, k, 0, part) - shear_x * tau[k];
+      y[k] = ray.seen(leaf, k, 1, part) - shear_y * tau[k];
       side[k] = Lanes::abs(x[k]) + Lanes::abs(y[k]);
     }
     const Vector a = x[2] * y[1] - y[2] * x[1];
@@ -85,70 +97,170 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned possible_hits(const Leaf& leaf, con
     const Vector c = x[1] * y[0] - y[1] * x[0];
     // As in RayQuery: the errors of the coordinates, and the roundings of the weights and of this.
     const Vector reach = Lanes::max(Lanes::max(side[0], side[1]), side[2]);
-    const Vector error = Lanes::broadcast(2.02F) * off * (reach + off) +
-                         Lanes::broadcast(4 * static_cast<float>(float_unit)) * reach * reach +
-                         Lanes::broadcast(0x1p-120F);
+    const Vector error = all(2.02F) * off * (reach + off) +
+                         all(4 * static_cast<float>(float_unit)) * reach * reach + all(0x1p-120F);
     const Vector least = Lanes::min(Lanes::min(a, b), c);
     const Vector most = Lanes::max(Lanes::max(a, b), c);
-    const Vector first = Lanes::min(Lanes::min(tau[0], tau[1]), tau[2]);
-    const Vector last = Lanes::max(Lanes::max(tau[0], tau[1]), tau[2]);
-    const Vector tau_off = Lanes::broadcast(ray.tau_off);
-    const unsigned missed = Lanes::to_bits(Lanes::less(least + error, Lanes::broadcast(0))) &
-                            Lanes::to_bits(Lanes::less(error, most));
-    const unsigned within =
-        Lanes::to_bits(Lanes::less_equal(first, Lanes::broadcast(tau_end) + tau_off)) &
-        Lanes::to_bits(Lanes::less_equal(Lanes::broadcast(0) - tau_off, last));
-    bits |= (within & ~missed) << part;
+    const Vector nearest = Lanes::min(Lanes::min(tau[0], tau[1]), tau[2]);
+    const Vector furthest = Lanes::max(Lanes::max(tau[0], tau[1]), tau[2]);
+    const unsigned missed =
+        Lanes::to_bits(Lanes::less(least + error, zero)) & Lanes::to_bits(Lanes::less(error, most));
+    const unsigned within = Lanes::to_bits(Lanes::less_equal(nearest, all(tau_end) + tau_off)) &
+                            Lanes::to_bits(Lanes::less_equal(zero - tau_off, furthest));
+    const unsigned possible = within & ~missed;
+    if (possible == 0) continue;
+    hits.possible |= possible << part;
+    const unsigned certain = possible & (Lanes::to_bits(Lanes::less(error, least)) |
+                                         Lanes::to_bits(Lanes::less(most, zero - error)));
+    hits.certain |= certain << part;
+    // The weights' errors move the mean of the vertices' tau by at most their part of its spread, as
+    // in RayQuery; the mean itself has up to eight roundings.
+    const Vector sum = Lanes::abs(a + b + c);
+    const Vector mean = (a * tau[0] + b * tau[1] + c * tau[2]) / (a + b + c);
+    const Vector far = Lanes::max(Lanes::abs(nearest), Lanes::abs(furthest));
+    const Vector tau_error = all(3.05F) * error * (furthest - nearest) / sum +
+                             all(10 * static_cast<float>(float_unit)) * far + tau_off;
+    Lanes::store(&hits.first[part], mean - tau_error);
+    Lanes::store(&hits.last[part], mean + tau_error);
   }
-  return bits;
 }
 
-template <class Query>
-TOUCHSTONE_TARGET void walk_tree(const RayMesh& mesh, const LocalRay& ray, RayTask task,
-                                 Query& query) {
-  const WideNode* const nodes = mesh.tree().nodes.data();
-  const Slabs slabs(ray);
-  std::array<Met, WideBvh::most_open> stack;
+// Writes the keys of the children that are met, from far to near, and returns the nearest. `to` has room
+// for eight.
+template <class Near>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE std::int32_t push(unsigned bits, const WideNode& node,
+                                                      const Near* begin, std::uint64_t* to) {
+#if defined(__x86_64__)
+  if constexpr (Simd<float>::width > 8 && sizeof(Near) == 32) {
+    return child_of(push_sorted(bits, node.child.data(), begin[0], to));
+  }
+#endif
+  alignas(32) std::array<float, 8> near;
+  for (std::size_t part = 0; part < 8; part += width) {
+    Lanes::store(&near[part], begin[part / width]);
+  }
+  std::size_t count = 0;
+  for (; bits != 0; bits &= bits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    const std::uint64_t key = key_of(node.child[lane], near[lane]);
+    std::size_t at = count++;
+    for (; at > 0 && to[at - 1] < key; --at) to[at] = to[at - 1];
+    to[at] = key;
+  }
+  return child_of(to[count - 1]);
+}
+
+// The walk of a ray from a child on. It calls visit(leaf number, tau_end) for the leaves that the ray meets,
+// about from near to far; the visitor may lower tau_end, and returns true to end the walk.
+template <class Visitor>
+struct Walk {
+  const WideNode* const nodes;
+  const Slabs slabs;
+  Visitor visitor;
+  float tau_end;
+  std::int32_t now;
   std::size_t open = 0;
-  Met now = {0, 0};
-  float tau_end = ray.tau_end(query.t_end());
-  alignas(64) float near[8];
-  for (;;) {
-    if (WideNode::is_leaf(now.child)) {
-      const Leaf& leaf = mesh.leaves()[WideNode::leaf(now.child)];
-      for (unsigned bits = possible_hits(leaf, ray, tau_end); bits != 0; bits &= bits - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-        const auto [a, b, c] = mesh.corners(leaf, lane);
-        if (!query.offer(leaf.triangle[lane], a, b, c)) continue;
-        if (task == RayTask::any) return;
-        tau_end = ray.tau_end(query.t_end());
-      }
+  std::array<std::uint64_t, WideBvh::most_open + WideNode::fan> stack;
+
+  template <class... Arguments>
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE Walk(const RayMesh& mesh, const RayBlock& block,
+                                           std::size_t ray, std::int32_t start, float end,
+                                           Arguments&&... arguments)
+      : nodes(mesh.tree().nodes.data()),
+        slabs(block, ray),
+        visitor(mesh, block, ray, arguments...),
+        tau_end(end),
+        now(start) {}
+
+  // One node or leaf. Returns false at the walk's end.
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool step() {
+    if (WideNode::is_leaf(now)) {
+      if (visitor.visit(WideNode::leaf(now), tau_end)) return false;
     } else {
       // Lanes without a child have empty boxes, which no ray meets.
-      const WideNode& node = nodes[now.child];
-      unsigned bits = slabs.meet(node, tau_end, near);
+      const WideNode& node = nodes[now];
+      Vector begin[8 / width];
+      const unsigned bits = slabs.meet(node, tau_end, begin);
       if (bits != 0) {
-        const auto met = [&] {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-          bits &= bits - 1;
-          return Met{node.child[lane], near[lane]};
-        };
-        now = met();
         // The nearest is next, and the others are on the stack, the nearer the higher.
-        const std::size_t first = open;
-        while (bits != 0) {
-          Met other = met();
-          if (other.near < now.near) std::swap(other, now);
-          std::size_t at = open++;
-          for (; at > first && stack[at - 1].near < other.near; --at) stack[at] = stack[at - 1];
-          stack[at] = other;
-        }
-        continue;
+        now = push(bits, node, begin, &stack[open]);
+        open += static_cast<std::size_t>(std::popcount(bits)) - 1;
+        return true;
       }
     }
+    std::uint64_t top;
     do {
-      if (open == 0) return;
-      now = stack[--open];
-    } while (now.near > tau_end);
+      if (open == 0) return false;
+      top = stack[--open];
+    } while (near_of(top) > tau_end);
+    now = child_of(top);
+    return true;
   }
-}
+};
+
+// The first hit of a ray, or any. A hit that is certain in floats stays, without a look in doubles, until
+// another is before it for certain. Where floats do not tell, `doubt` does.
+template <class Doubt>
+struct HitVisitor {
+  const RayMesh& mesh;
+  const RayBlock& block;
+  const std::size_t ray;
+  const RayTask task;
+  FoundHit& found;
+  Doubt& doubt;
+  Shear shear;
+  LeafHits hits;
+  float first, last;  // the tau of what was found
+
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE HitVisitor(const RayMesh& m, const RayBlock& b, std::size_t r,
+                                                 RayTask t, FoundHit& f, Doubt& d)
+      : mesh(m), block(b), ray(r), task(t), found(f), doubt(d), shear(b, r), first(0), last(0) {}
+
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool visit(std::uint32_t number, float& tau_end) {
+    const Leaf& leaf = mesh.leaves()[number];
+    meet(leaf, shear, tau_end, hits);
+    for (unsigned bits = hits.possible; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      if ((hits.certain >> lane & 1) != 0 && hits.first[lane] > block.sure_begin[ray] &&
+          hits.last[lane] < block.sure_end[ray]) {
+        if (!found.is_found() || hits.last[lane] < first) {
+          first = hits.first[lane];
+          last = hits.last[lane];
+          found = {number, static_cast<std::uint32_t>(lane)};
+          if (task == RayTask::any) return true;
+          // A box's near end has four roundings.
+          tau_end = std::min(tau_end, last * (1 + 16 * static_cast<float>(float_unit)));
+          continue;
+        }
+        if (hits.first[lane] > last) continue;
+      }
+      if (doubt.offer(found, {number, static_cast<std::uint32_t>(lane)}, task, tau_end))
+        return true;
+    }
+    return false;
+  }
+};
+
+// Offers a query every triangle that the ray may hit.
+template <class Query>
+struct OfferingVisitor {
+  const RayMesh& mesh;
+  Query& query;
+  Shear shear;
+  LeafHits hits;
+
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE OfferingVisitor(const RayMesh& m, const RayBlock& block,
+                                                      std::size_t ray, Query& q)
+      : mesh(m), query(q), shear(block, ray) {}
+
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool visit(std::uint32_t number, float& tau_end) {
+    const Leaf& leaf = mesh.leaves()[number];
+    meet(leaf, shear, tau_end, hits);
+    for (unsigned bits = hits.possible; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      const auto [a, b, c] = mesh.corners(leaf, lane);
+      if (query.offer(leaf.triangle[lane], a, b, c)) return true;
+    }
+    return false;
+  }
+};

@@ -1,8 +1,6 @@
-// touchstone rays: casts rays at a mesh, and writes a row for each answer.
+// touchstone rays: casts rays at a mesh or a scene, and writes a row for each answer.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,6 +11,8 @@
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/query/rays_files.h"
+#include "harness/commands/query/rays_of_scenes.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/geometry/mesh.h"
@@ -21,41 +21,11 @@
 namespace touchstone::commands {
 namespace {
 
-struct RaysOptions {
-  std::string mesh, rays, cast, out;
-  RayTask task = RayTask::closest;
-  RayCastSettings settings;
-  double time_limit = 5;  // seconds a ray
-};
-
 // The hits of one algorithm, one for each ray.
 struct Cast {
   const RayCastEntry* entry;
   std::vector<RayHit> hits;
 };
-
-std::vector<Ray> read_rays(const std::string& file) {
-  std::vector<Ray> rays;
-  const files::CsvReader reader(file, {"origin_x", "origin_y", "origin_z", "direction_x",
-                                       "direction_y", "direction_z", "t_max"});
-  reader.read([&](const files::CsvReader::Row& row) {
-    const auto finite = [&](std::size_t column) {
-      const double value = row.number(column);
-      if (!std::isfinite(value)) {
-        row.fail(fmt::format("column {}: found {}; expected a finite number", row.name(column),
-                             row.text(column)));
-      }
-      return value;
-    };
-    Ray ray{{finite(0), finite(1), finite(2)}, {finite(3), finite(4), finite(5)}, row.number(6)};
-    if (ray.direction.isZero(0)) row.fail("the direction is zero; expected one that is not");
-    if (!(ray.t_max >= 0)) {
-      row.fail(fmt::format("column t_max: found {}; expected 0 or more, or inf", row.text(6)));
-    }
-    rays.push_back(std::move(ray));
-  });
-  return rays;
-}
 
 // Casts all rays, in a child process. Prints the failures.
 Cast ask(const RayCastEntry& entry, const TriangleMesh& mesh, const std::vector<Ray>& rays,
@@ -91,29 +61,10 @@ void write_row(files::CsvWriter& csv, std::size_t ray, const Cast& cast, Precisi
   csv.end_row();
 }
 
-// Prints the number of hits and of each status of every algorithm.
-void print_summary(const std::vector<Cast>& casts) {
-  fmt::print("{:<24} {:>9} {:>9}  {}\n", "algorithm", "hits", "misses", "status");
-  for (const Cast& cast : casts) {
-    std::size_t hits = 0;
-    std::map<Status, std::size_t> statuses;
-    for (const RayHit& hit : cast.hits) {
-      hits += hit.hit ? 1 : 0;
-      ++statuses[hit.status];
-    }
-    std::string text;
-    for (const auto& [status, count] : statuses) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), count);
-    }
-    fmt::print("{:<24} {:>9} {:>9}  {}\n", cast.entry->info.name, hits, cast.hits.size() - hits,
-               text);
-  }
-}
-
 void cast_rays(const RaysOptions& options) {
   const auto entries =
       campaign::select(ray_casts(), campaign::split_names(options.cast), "ray cast");
-  geometry::Mesh read = geometry::read_mesh(options.mesh);
+  geometry::Mesh read = geometry::read_mesh(options.target);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Ray> rays = read_rays(options.rays);
   files::check_output(options.out);
@@ -126,7 +77,13 @@ void cast_rays(const RaysOptions& options) {
     for (const Cast& cast : casts) write_row(csv, ray, cast, options.settings.scalar);
   }
   csv.close();
-  print_summary(casts);
+  std::vector<RaysSummary> summaries;
+  for (const Cast& cast : casts) {
+    RaysSummary& summary = summaries.emplace_back();
+    summary.name = cast.entry->info.name;
+    for (const RayHit& hit : cast.hits) summary.add(hit.hit, hit.status);
+  }
+  print_summaries(summaries);
 }
 
 }  // namespace
@@ -135,17 +92,26 @@ void add_rays(Arguments command) {
   static const Arguments::Choices<RayTask> tasks = {{"closest", RayTask::closest},
                                                     {"any", RayTask::any}};
   const auto options = std::make_shared<RaysOptions>();
-  command.text("MESH", options->mesh, "The mesh: OBJ, OFF, STL or PLY").required();
+  command
+      .text("FILE", options->target,
+            "A mesh (OBJ, OFF, STL or PLY), or a scene (TOML, or rigid-ipc's JSON)")
+      .required();
   command.text("--rays", options->rays, "Rays: CSV with origin, direction and t_max").required();
   command.text("--cast", options->cast, "Ray casts: names joined by commas, or all").required();
   command.one_of("--task", options->task, tasks, "The first hit, or whether there is any")
       .required();
   command.one_of("--scalar", options->settings.scalar, scalar_choices(), "What the input is")
       .show_default("double");
+  command.number("--frame", options->frame, "Which frame of a scene").show_default();
   add_time_limit(command, options->time_limit, "Seconds that a ray may take").show_default();
   command.text("--out", options->out, "The CSV file to write").required();
   command.job([options] {
-    cast_rays(*options);
+    if (is_scene(options->target)) {
+      cast_rays_at_scene(*options);
+    } else {
+      if (options->frame != 0) throw base::InputError("--frame: a mesh has no frames");
+      cast_rays(*options);
+    }
     return exit_done;
   });
 }

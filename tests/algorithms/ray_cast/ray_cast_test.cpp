@@ -112,6 +112,17 @@ TEST(RayCasts, AimedAtVerticesEdgesAndFacesAreExact) {
   EXPECT_GT(outcomes.misses, 1000 / one_in);
 }
 
+TEST(RayCasts, TogetherAreExact) {
+  Outcomes outcomes;
+  for (const auto& [name, mesh] : reference::ray_meshes()) {
+    SCOPED_TRACE(name);
+    expect_exact(mesh, families::rays_in_sixteens(mesh, drawn(12, 2), 23), outcomes);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(outcomes.hits, 1000 / one_in);
+  EXPECT_GT(outcomes.misses, 300 / one_in);
+}
+
 TEST(RayCasts, InAnyDirectionAreExact) {
   Outcomes outcomes;
   for (const auto& [name, mesh] : families::ray_meshes()) {

@@ -33,6 +33,7 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
   expect_all("narrow", narrow_phases());
   expect_all("manifold", contact_manifolds());
   expect_all("ray", ray_casts());
+  expect_all("scene-ray", scene_ray_casts());
   expect_all("point", point_queries());
   expect_all("mid", mid_phases());
   expect_all("concave", concave_phases());

@@ -95,5 +95,50 @@ TEST(RaysCommand, WrongRequests) {
             2);
 }
 
+// A box and a ball beside it; the mouse's ray at each, past them, and at a later frame of the ball.
+TEST(RaysCommand, OneRowForEachRayAtAScene) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.toml",
+                                  "frames = 2\ntime_step = 1.0\nbody = [\n"
+                                  "{shape = {type = \"box\", half_extents = [1, 1, 0.5]}, "
+                                  "translation = [0, 0, 0], moving = false},\n"
+                                  "{shape = {type = \"sphere\", radius = 1}, translation = [4, 0, "
+                                  "0], velocity = [0, 0, 1]}]\n");
+  const auto rays = folder.write(
+      "rays.csv", header + "0.25,0,3,0,0,-1,inf\n4,0,3,0,0,-2,inf\n9,0,3,0,0,-1,inf\n");
+  const auto out = folder.path() / "out.csv";
+  std::vector<std::string> columns = columns_of_rays;
+  for (const char* name : {"body", "part", "normal_x", "normal_y", "normal_z"}) {
+    columns.emplace_back(name);
+  }
+  for (const std::string frame : {"0", "1"}) {
+    const Ran ran =
+        run_program("rays " + scene.string() + " --rays " + rays.string() +
+                    " --cast all --task closest --frame " + frame + " --out " + out.string());
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    const auto rows = read_rows(out, columns);
+    ASSERT_EQ(rows.size(), 6u);
+    for (const auto& row : rows) {
+      EXPECT_EQ(row[8], "ok");
+      EXPECT_EQ(row[3], row[0] == "2" ? "0" : "1");
+      EXPECT_EQ(row[9], row[0] == "2" ? "" : row[0]);
+      if (row[0] == "0") {
+        EXPECT_EQ(row[4], "2.5");
+      }
+      if (row[0] == "1") {
+        EXPECT_EQ(row[4], frame == "0" ? "1" : "0.5");
+      }
+      if (row[0] == "0" && row[1] == "wide-bvh") {
+        EXPECT_EQ(row[13], "1");
+      }
+    }
+  }
+  for (const std::string wrong : {" --frame 2", " --scalar float"}) {
+    const Ran ran = run_program("rays " + scene.string() + " --rays " + rays.string() +
+                                " --cast all --task closest --out " + out.string() + wrong);
+    EXPECT_EQ(ran.status, 2) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace touchstone

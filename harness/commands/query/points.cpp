@@ -1,0 +1,141 @@
+// touchstone points: asks for the closest point of a mesh, or the side of its surface, and writes a row
+// for each answer.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/campaign/selection.h"
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
+#include "harness/files/csv.h"
+#include "harness/geometry/mesh.h"
+#include "harness/process/isolate.h"
+
+namespace touchstone::commands {
+namespace {
+
+struct PointsOptions {
+  std::string mesh, points, query = "all", out;
+  PointTask task = PointTask::closest;
+  double time_limit = 5;  // seconds a point
+};
+
+// The answers of one algorithm, one for each point.
+struct PointAnswers {
+  const PointQueryEntry* entry;
+  std::vector<PointAnswer> of;
+};
+
+std::vector<Vec3d> read_points(const std::string& file) {
+  std::vector<Vec3d> points;
+  const files::CsvReader reader(file, {"x", "y", "z"});
+  reader.read([&](const files::CsvReader::Row& row) {
+    Vec3d& point = points.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double value = row.number(k);
+      if (!std::isfinite(value)) {
+        row.fail(
+            fmt::format("column {}: found {}; expected a finite number", row.name(k), row.text(k)));
+      }
+      point[static_cast<Eigen::Index>(k)] = value;
+    }
+  });
+  return points;
+}
+
+// Asks about all points, in a child process. Prints the failures.
+PointAnswers ask_about(const PointQueryEntry& entry, const TriangleMesh& mesh,
+            const std::vector<Vec3d>& points, const PointsOptions& options) {
+  PointAnswers answers = {&entry, std::vector<PointAnswer>(points.size())};
+  auto solved = process::isolated_answers<PointAnswer>(
+      points.size(), {.item_seconds = options.time_limit}, [&] {
+        std::shared_ptr<PointQuery> query = entry.make();
+        query->bind(mesh);
+        return [&points, &options, query](std::size_t item) {
+          PointAnswer answer;
+          query->query(options.task, {&points[item], 1}, {&answer, 1});
+          return answer;
+        };
+      });
+  answers.of = std::move(solved.answers);
+  print_failures(entry.info.name, solved.failures,
+                 [](std::size_t item) { return fmt::format("point {}", item); });
+  return answers;
+}
+
+void write_point_row(files::CsvWriter& csv, std::size_t point, const PointAnswers& answers, PointTask task) {
+  const PointAnswer& answer = answers.of[point];
+  csv.field(point).field(answers.entry->info.name).field(to_string(task));
+  csv.field(task == PointTask::side ? to_string(answer.side) : "").field(answer.distance);
+  if (answer.triangle == PointAnswer::no_triangle) {
+    csv.field("");
+  } else {
+    csv.field(static_cast<std::int64_t>(answer.triangle));
+  }
+  for (const double x : answer.closest) csv.field(x);
+  csv.field(to_string(answer.status));
+  csv.end_row();
+}
+
+void print_points_summary(const std::vector<PointAnswers>& all) {
+  fmt::print("{:<24} {:>9}  {}\n", "algorithm", "points", "status");
+  for (const PointAnswers& answers : all) {
+    std::map<Status, std::size_t> statuses;
+    for (const PointAnswer& answer : answers.of) ++statuses[answer.status];
+    std::string text;
+    for (const auto& [status, count] : statuses) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), count);
+    }
+    fmt::print("{:<24} {:>9}  {}\n", answers.entry->info.name, answers.of.size(), text);
+  }
+}
+
+void ask_points(const PointsOptions& options) {
+  const auto entries =
+      campaign::select(point_queries(), campaign::split_names(options.query), "point query");
+  geometry::Mesh read = geometry::read_mesh(options.mesh);
+  const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
+  const std::vector<Vec3d> points = read_points(options.points);
+  files::check_output(options.out);
+  std::vector<PointAnswers> all;
+  all.reserve(entries.size());
+  for (const PointQueryEntry* entry : entries) all.push_back(ask_about(*entry, mesh, points, options));
+  files::CsvWriter csv(options.out, {"point", "algorithm", "task", "side", "distance", "triangle",
+                                     "x", "y", "z", "status"});
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    for (const PointAnswers& answers : all) write_point_row(csv, point, answers, options.task);
+  }
+  csv.close();
+  print_points_summary(all);
+}
+
+}  // namespace
+
+void add_points(Arguments command) {
+  static const Arguments::Choices<PointTask> tasks = {{"closest", PointTask::closest},
+                                                      {"side", PointTask::side}};
+  const auto options = std::make_shared<PointsOptions>();
+  command.text("MESH", options->mesh, "The mesh: OBJ, OFF, STL or PLY").required();
+  command.text("--points", options->points, "Points: CSV with x, y and z").required();
+  command.text("--query", options->query, "Point queries: names joined by commas, or all")
+      .show_default();
+  command
+      .one_of("--task", options->task, tasks,
+              "The closest point, or the side of the surface, which is closed")
+      .show_default("closest");
+  add_time_limit(command, options->time_limit, "Seconds that a point may take").show_default();
+  command.text("--out", options->out, "The CSV file to write").required();
+  command.job([options] {
+    ask_points(*options);
+    return exit_done;
+  });
+}
+
+}  // namespace touchstone::commands

@@ -1,0 +1,47 @@
+// The file of rays, and the lines at the end.
+#include "harness/commands/query/rays_files.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "harness/files/csv.h"
+
+namespace touchstone::commands {
+
+std::vector<Ray> read_rays(const std::string& file) {
+  std::vector<Ray> rays;
+  const files::CsvReader reader(file, {"origin_x", "origin_y", "origin_z", "direction_x",
+                                       "direction_y", "direction_z", "t_max"});
+  reader.read([&](const files::CsvReader::Row& row) {
+    const auto finite = [&](std::size_t column) {
+      const double value = row.number(column);
+      if (!std::isfinite(value)) {
+        row.fail(fmt::format("column {}: found {}; expected a finite number", row.name(column),
+                             row.text(column)));
+      }
+      return value;
+    };
+    Ray ray{{finite(0), finite(1), finite(2)}, {finite(3), finite(4), finite(5)}, row.number(6)};
+    if (ray.direction.isZero(0)) row.fail("the direction is zero; expected one that is not");
+    if (!(ray.t_max >= 0)) {
+      row.fail(fmt::format("column t_max: found {}; expected 0 or more, or inf", row.text(6)));
+    }
+    rays.push_back(std::move(ray));
+  });
+  return rays;
+}
+
+void print_summaries(const std::vector<RaysSummary>& summaries) {
+  fmt::print("{:<24} {:>9} {:>9}  {}\n", "algorithm", "hits", "misses", "status");
+  for (const RaysSummary& summary : summaries) {
+    std::string text;
+    for (const auto& [status, count] : summary.statuses) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), count);
+    }
+    fmt::print("{:<24} {:>9} {:>9}  {}\n", summary.name, summary.hits, summary.misses, text);
+  }
+}
+
+}  // namespace touchstone::commands

@@ -1,0 +1,37 @@
+// What `rays` reads and prints, for meshes and scenes.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "algorithms/ray_cast.h"
+
+namespace touchstone::commands {
+
+struct RaysOptions {
+  std::string target, rays, cast, out;  // target: a mesh or a scene
+  RayTask task = RayTask::closest;
+  RayCastSettings settings;
+  int frame = 0;
+  double time_limit = 5;  // seconds a ray
+};
+
+// Throws InputError with file, line and what was expected.
+std::vector<Ray> read_rays(const std::string& file);
+
+// The number of an algorithm's hits and of each status.
+struct RaysSummary {
+  std::string name;
+  std::size_t hits = 0, misses = 0;
+  std::map<Status, std::size_t> statuses = {};
+
+  void add(bool hit, Status status) {
+    ++(hit ? hits : misses);
+    ++statuses[status];
+  }
+};
+void print_summaries(const std::vector<RaysSummary>& summaries);
+
+}  // namespace touchstone::commands

@@ -1,0 +1,57 @@
+// Tests of touchstone points.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/harness/commands/program.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+const std::vector<std::string> columns_of_points = {
+    "point", "algorithm", "task", "side", "distance", "triangle", "x", "y", "z", "status"};
+const std::string tetrahedron =
+    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+TEST(PointsCommand, OneRowForEachPointAndQuery) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("tetrahedron.obj", tetrahedron);
+  const auto points = folder.write("points.csv", "x,y,z\n1,1,-2\n0.5,0.5,0.25\n1,1,0\n");
+  const auto out = folder.path() / "out.csv";
+  const std::string asked =
+      "points " + mesh.string() + " --points " + points.string() + " --out " + out.string();
+  Ran ran = run_program(asked);
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  auto rows = read_rows(out, columns_of_points);
+  ASSERT_GE(rows.size(), 6u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row[2], "closest");
+    EXPECT_EQ(row[4], row[0] == "0" ? "2" : row[0] == "1" ? "0.25" : "0");
+    EXPECT_EQ(row[9], "ok");
+  }
+  ran = run_program(asked + " --task side --query wide-bvh,exact");
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  rows = read_rows(out, columns_of_points);
+  ASSERT_EQ(rows.size(), 6u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row[3], row[0] == "0" ? "outside" : row[0] == "1" ? "inside" : "surface");
+  }
+}
+
+TEST(PointsCommand, WrongRequests) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("tetrahedron.obj", tetrahedron);
+  const auto points = folder.write("points.csv", "x,y,z\n1,nan,-2\n");
+  const std::string end = " --out " + (folder.path() / "out.csv").string();
+  Ran ran = run_program("points " + mesh.string() + " --points " + points.string() + end);
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.text, ::testing::HasSubstr("finite"));
+  ran = run_program("points " + mesh.string() + " --points " + points.string() + " --query nobody" +
+                    end);
+  EXPECT_EQ(ran.status, 2);
+}
+
+}  // namespace
+}  // namespace touchstone
