@@ -100,10 +100,10 @@ PlacedConcave placed(std::uint32_t body, base::Random& random) {
 
 // The way from a point of a to b: from the mesh's origin, or from a point of its surface, away from it
 // within half a right angle or so.
-struct Way {
+struct Approach {
   Vec3d start, direction;
 };
-Way way_of(const ConcaveInput& input, const PlacedConcave& a, base::Random& random) {
+Approach approach_of(const ConcaveInput& input, const PlacedConcave& a, base::Random& random) {
   const Vec3d any = random.on_sphere();
   if (input.second() == 0) return {Vec3d::Zero(), any};
   const TriangleMesh& mesh = *input.bodies[0].mesh;
@@ -118,7 +118,7 @@ Way way_of(const ConcaveInput& input, const PlacedConcave& a, base::Random& rand
 void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Random& random) {
   const PlacedConcave a = placed(0, random);
   PlacedConcave b = placed(input.second(), random);
-  const Way way = way_of(input, a, random);
+  const Approach way = approach_of(input, a, random);
   const auto at = [&](double distance) {
     b.pose.translation = nearest_float(Vec3d(way.start + distance * way.direction));
     Outcome outcome;
