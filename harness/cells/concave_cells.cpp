@@ -185,7 +185,7 @@ Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std:
     input->bodies.push_back({nullptr, {{convex_shape(bodies.convex, input->size, shape), {}, 0}}});
   }
   const std::unique_ptr<ConcavePhase> placing =
-      make_phase(*find_concave_phase("part-pairs"), Precision::float64);
+      make_phase(*find_concave_phase("fused"), Precision::float64);
   placing->bind(input->bodies);
   base::Random random(seed, static_cast<std::uint64_t>(place));
   for (std::size_t i = 0; i < count; ++i) place_pair(*input, place, *placing, random);

@@ -29,8 +29,7 @@ class ConvexSearch {
   // The bodies stay alive and unchanged.
   void bind(std::span<const BoundBody> bodies);
 
-  // Searches the mesh for each part of the other body. Returns false, without a call of `take`, if
-  // the rotation of a part's pose is not orthonormal: then doubles in its frame prove nothing.
+  // Searches the mesh for each part of the other body. Returns false, without a call of `take`, X doubles in its frame prove nothing.
   bool find(const PlacedConcave& parts, const PlacedConcave& mesh, const Take& take);
 
  private:

@@ -54,16 +54,17 @@ SearchBox::Extent extent(const Vec3d& centre, const Vec3d& half, double slack) {
 SearchBox search_box(const Vec3d& low, const Vec3d& high, double radius, const Pose& map,
                      double error, double reach) {
   const Mat3d& turn = map.rotation;
-  const double all =
-      (1 + norm(turn)) * (reach + magnitude(low, high) + map.translation.cwiseAbs().sum());
-  const double slack = 128 * 0x1p-24 * all + 8 * error + std::numeric_limits<float>::min();
+  const Mat3d back = turn.inverse();
+  const bool has_inverse = norm(back * turn - Mat3d::Identity()) <= 1e-9;
+  const double norm_back = has_inverse ? norm(back) : 0;
+  const double all = (1 + norm(turn)) * (1 + norm_back) *
+                     (reach + magnitude(low, high) + map.translation.cwiseAbs().sum());
+  const double slack = 256 * 0x1p-24 * all + 8 * error + std::numeric_limits<float>::min();
   SearchBox box;
   const Vec3d centre = low / 2 + high / 2, half = high / 2 - low / 2;
   box.own = extent(centre, half, slack);
-  const Mat3d back = turn.transpose();
-  const bool is_rotation = norm(back * turn - Mat3d::Identity()) <= 1e-9;
   const Vec3d unknown = Vec3d::Constant(std::numeric_limits<double>::infinity());
-  box.seen = is_rotation ? extent(back * (centre - map.translation), back.cwiseAbs() * half, slack)
+  box.seen = has_inverse ? extent(back * (centre - map.translation), back.cwiseAbs() * half, slack)
                          : extent(unknown, unknown, slack);
   for (int row = 0; row < 3; ++row) {
     for (int k = 0; k < 3; ++k) {
@@ -74,6 +75,9 @@ SearchBox search_box(const Vec3d& low, const Vec3d& high, double radius, const P
   }
   box.view.slack = 0;  // the box has it
   box.radius = round_up(radius);
+  // A ball becomes an ellipsoid; the norm bounds the root of the greatest eigenvalue.
+  box.seen_radius =
+      has_inverse ? round_up(radius * std::sqrt(norm(back.transpose() * back)) * (1 + 1e-6)) : 0;
   return box;
 }
 

@@ -19,9 +19,9 @@ struct SearchBox {
     std::array<float, 3> centre, half;  // grown by bounds on all rounding
   };
   Extent own;   // along the axes of the box
-  Extent seen;  // along those of the tree; infinite where the map between them is no rotation
+  Extent seen;  // along those of the tree; infinite where the map between them has no inverse
   BoxView view;
-  float radius;  // of the ball (metres)
+  float radius, seen_radius;  // of the ball in both frames (metres)
 };
 
 // `low` and `high` are corners of the box, which may be infinite. `map` takes the tree's coordinates to

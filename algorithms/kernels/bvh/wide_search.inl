@@ -8,7 +8,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned near_boxes(const WideNode& 
   using Vector = typename Lanes::Vector;
   const Vector half = Lanes::broadcast(0.5F), zero = Lanes::broadcast(0);
   const Vector certain = Lanes::broadcast(1 - 0x1p-20F);
-  const Vector radius = Lanes::broadcast(box.radius);
+  const Vector radius = Lanes::broadcast(box.radius), seen = Lanes::broadcast(box.seen_radius);
   unsigned near = 0;
   for (std::size_t at = 0; at < WideNode::fan; at += Lanes::width) {
     Vector centre[3], extent[3];
@@ -24,7 +24,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned near_boxes(const WideNode& 
       const Vector gap = Lanes::max(apart - (extent[k] + Lanes::broadcast(box.seen.half[k])), zero);
       sum = sum + gap * gap;
     }
-    bits &= ~Lanes::to_bits(Lanes::less(radius * radius, sum * certain));
+    bits &= ~Lanes::to_bits(Lanes::less(seen * seen, sum * certain));
     if (bits == 0) continue;
     sum = zero;
     for (std::size_t row = 0; row < 3; ++row) {
