@@ -12,12 +12,14 @@
 //          4. Where no parts meet and a body is solid, exact winding numbers tell whether a piece of
 //             the other lies inside (interior).
 //          5. distance: the trees' nearest pairs first (part_distance).
+//          6. measure: the narrow phase gives each pair's depth and normal.
 // Departs: `moller` and `guigue-devillers` decide each pair of triangles in doubles, as their papers
 //          do, and are wrong where rounding is.
 // Fails:   poses of parts within turned compounds are rounded; where that hides a verdict the answer
 //          is unknown and the status degenerate. Each pair in which rounding hides a sign costs some
 //          microseconds, so that a mesh on itself is slow.
 // Cost:    two meshes: O(log n + k) where little meets, k = pairs of leaves that are near.
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -90,6 +92,24 @@ class PartPairs final : public ConcavePhase {
     if (task == ConcaveTask::distance && outcome.answer == Answer::separated) {
       distances_.measure(a, b, convex_pairs_, outcome);
     }
+  }
+
+  bool measure(const PlacedConcave& a, const PlacedConcave& b, std::span<const IndexPair> pairs,
+               std::vector<PartContact>& contacts) override {
+    contacts.clear();
+    const auto outcomes = convex_pairs_.solve(Task::penetration, bodies_[a.body], a.pose,
+                                              bodies_[b.body], b.pose, pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Outcome& found = outcomes[i];
+      PartContact& contact = contacts.emplace_back();
+      contact.parts = pairs[i];
+      contact.status = found.status;
+      if (!found.normal.allFinite()) continue;
+      contact.normal = found.normal;
+      contact.depth = std::max(0.0, -found.distance);
+      contact.point = (found.witness_a + found.witness_b) / 2;
+    }
+    return true;
   }
 
  private:
@@ -201,6 +221,7 @@ std::vector<ConcaveEntry> concave_part_pairs() {
             test_by_guigue_devillers)};
   for (ConcaveEntry& made : entries) {
     made.approximate = made.info.name == "moller" || made.info.name == "guigue-devillers";
+    made.measures = !made.approximate;
     if (!made.approximate) continue;
     made.supports = both_are_meshes;
     made.tasks = {ConcaveTask::intersect, ConcaveTask::contacts};
