@@ -40,6 +40,16 @@ struct PlacedConcave {
   Pose pose;
 };
 
+// How two parts that share a point touch: moving b by depth * normal leaves these two parts without
+// common interior.
+struct PartContact {
+  IndexPair parts;
+  Status status = Status::unsupported;
+  Vec3d normal = Vec3d::Constant(Outcome::none);  // unit vector in the world, from a to b
+  double depth = Outcome::none;                   // metres; the least such, and 0 for a touch
+  Vec3d point = Vec3d::Constant(Outcome::none);   // in the world: amid the two witness points
+};
+
 // One instance for each worker, never shared between threads.
 class ConcavePhase {
  public:
@@ -59,6 +69,14 @@ class ConcavePhase {
   // certified where there are some. Never throws on finite input.
   virtual void solve(ConcaveTask task, const PlacedConcave& a, const PlacedConcave& b,
                      Outcome& outcome, std::vector<IndexPair>& pairs) = 0;
+
+  // Writes the contact of each of these pairs of parts, which share a point, in their order. Returns
+  // false if the algorithm has none, which is the default.
+  virtual bool measure(const PlacedConcave& /*a*/, const PlacedConcave& /*b*/,
+                       std::span<const IndexPair> /*pairs*/,
+                       std::vector<PartContact>& /*contacts*/) {
+    return false;
+  }
 };
 
 struct ConcaveEntry {
@@ -70,6 +88,8 @@ struct ConcaveEntry {
   // True if it finds pairs of parts of two meshes with ConcaveSettings::mid_phase, so that its times
   // depend on that.
   bool takes_mid_phase = false;
+  // True if `measure` has contacts.
+  bool measures = false;
   // True if it is wrong where its doubles are: its answers are no promise.
   bool approximate = false;
   // Null if it is not built.

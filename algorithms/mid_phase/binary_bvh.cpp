@@ -8,25 +8,16 @@
 //             larger of the two otherwise.
 // Departs: boxes are compared along the three axes of the common frame alone.
 // Fails:   each box of the second body is put into the frame each time that it is met.
-// Cost:    O(n log n) build, O(n) refit, 64 bytes a part.
+// Cost:    O(n log n) build, O(n) refit, 76 bytes a part.
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "algorithms/core/mesh/placed_box.h"
+#include "algorithms/kernels/bvh/binary_tree.h"
 #include "algorithms/mid_phase.h"
 
 namespace touchstone {
 namespace {
-
-struct BinaryNode {
-  Aabb box;
-  // The left child is the next node. A leaf has no right child, and its part here instead.
-  std::uint32_t right = 0;
-  std::uint32_t part = 0;
-
-  bool is_leaf() const { return right == 0; }
-};
 
 Aabb joined(const Aabb& a, const Aabb& b) {
   Aabb box;
@@ -37,65 +28,27 @@ Aabb joined(const Aabb& a, const Aabb& b) {
   return box;
 }
 
-// Twice the centre; 0 where there is none.
-float centre(const Aabb& box, int axis) {
-  const float sum = box.min[axis] + box.max[axis];
-  return std::isfinite(sum) ? sum : 0;
-}
-
-class BinaryTree {
+class BoxTree {
  public:
-  explicit BinaryTree(std::span<const Aabb> boxes) : reach_(reach_of(boxes)) {
-    std::vector<std::uint32_t> parts(boxes.size());
-    std::iota(parts.begin(), parts.end(), 0u);
-    nodes_.reserve(2 * boxes.size());
-    if (!parts.empty()) split(boxes, parts);
-  }
+  explicit BoxTree(std::span<const Aabb> parts) : tree_(build_binary_tree(parts)) { refit(parts); }
 
-  void refit(std::span<const Aabb> boxes) {
-    reach_ = reach_of(boxes);
-    for (std::uint32_t n = static_cast<std::uint32_t>(nodes_.size()); n-- > 0;) {
-      BinaryNode& node = nodes_[n];
-      node.box =
-          node.is_leaf() ? boxes[node.part] : joined(nodes_[n + 1].box, nodes_[node.right].box);
+  void refit(std::span<const Aabb> parts) {
+    reach_ = reach_of(parts);
+    boxes_.resize(tree_.nodes.size());
+    for (std::uint32_t n = static_cast<std::uint32_t>(boxes_.size()); n-- > 0;) {
+      const BinaryTree::Node& node = tree_.nodes[n];
+      boxes_[n] = node.is_leaf() ? parts[tree_.order[node.first]]
+                                 : joined(boxes_[n + 1], boxes_[node.right]);
     }
   }
 
-  const std::vector<BinaryNode>& nodes() const { return nodes_; }
+  const BinaryTree& tree() const { return tree_; }
+  const Aabb& box(std::uint32_t node) const { return boxes_[node]; }
   double reach() const { return reach_; }
 
  private:
-  void split(std::span<const Aabb> boxes, std::span<std::uint32_t> parts) {
-    const auto number = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({boxes[parts[0]], 0, parts[0]});
-    if (parts.size() == 1) return;
-    Vec3d mean = Vec3d::Zero(), squares = Vec3d::Zero();
-    for (const std::uint32_t part : parts) {
-      nodes_[number].box = joined(nodes_[number].box, boxes[part]);
-      const Vec3d at(centre(boxes[part], 0), centre(boxes[part], 1), centre(boxes[part], 2));
-      mean += at;
-      squares += at.cwiseAbs2();
-    }
-    mean /= static_cast<double>(parts.size());
-    int axis = 0;
-    (squares / static_cast<double>(parts.size()) - mean.cwiseAbs2()).maxCoeff(&axis);
-    const auto before = [&](std::uint32_t part) { return centre(boxes[part], axis) < mean[axis]; };
-    auto middle = std::partition(parts.begin(), parts.end(), before);
-    auto left = static_cast<std::size_t>(middle - parts.begin());
-    // A split that takes off less than an eighth of many parts would make the tree too deep.
-    if (std::min(left, parts.size() - left) < parts.size() / 8 + 1) {
-      left = parts.size() / 2;
-      std::nth_element(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(left),
-                       parts.end(), [&](std::uint32_t p, std::uint32_t q) {
-                         return centre(boxes[p], axis) < centre(boxes[q], axis);
-                       });
-    }
-    split(boxes, parts.first(left));
-    nodes_[number].right = static_cast<std::uint32_t>(nodes_.size());
-    split(boxes, parts.subspan(left));
-  }
-
-  std::vector<BinaryNode> nodes_;
+  BinaryTree tree_;
+  std::vector<Aabb> boxes_;  // of the nodes
   double reach_;
 };
 
@@ -112,38 +65,27 @@ class BinaryBvhMidPhase final : public MidPhase {
 
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const BinaryTree &first = trees_[a], &second = trees_[b];
-    if (first.nodes().empty() || second.nodes().empty()) return true;
+    const BoxTree &first = trees_[a], &second = trees_[b];
     const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
     const double slack = box_slack(frame, first.reach(), second.reach());
-    open_.assign(1, {0, 0});
-    while (!open_.empty()) {
-      const IndexPair now = open_.back();
-      open_.pop_back();
-      const BinaryNode &node_a = first.nodes()[now.a], &node_b = second.nodes()[now.b];
-      if ((node_a.is_leaf() && node_a.box.is_empty()) ||
-          (node_b.is_leaf() && node_b.box.is_empty())) {
-        continue;
-      }
-      const PlacedBox box_a(node_a.box, frame.a), box_b(node_b.box, frame.b);
-      if (are_apart(box_a, box_b, slack)) continue;
-      if (node_a.is_leaf() && node_b.is_leaf()) {
-        const IndexPair found = {node_a.part, node_b.part};
-        if (!take({&found, 1})) return false;
-      } else if (node_b.is_leaf() ||
-                 (!node_a.is_leaf() && !(box_a.half.sum() < box_b.half.sum()))) {
-        open_.push_back({node_a.right, now.b});
-        open_.push_back({now.a + 1, now.b});
-      } else {
-        open_.push_back({now.a, node_b.right});
-        open_.push_back({now.a, now.b + 1});
-      }
-    }
-    return true;
+    PlacedBox box_a, box_b;
+    return descend(
+        first.tree(), second.tree(), open_,
+        [&](std::uint32_t i, std::uint32_t j) {
+          if (first.box(i).is_empty() || second.box(j).is_empty()) return true;
+          box_a = PlacedBox(first.box(i), frame.a);
+          box_b = PlacedBox(second.box(j), frame.b);
+          return are_apart(box_a, box_b, slack);
+        },
+        [&](std::uint32_t, std::uint32_t) { return !(box_a.half.sum() < box_b.half.sum()); },
+        [&](std::uint32_t i, std::uint32_t j) {
+          const IndexPair found = {i, j};
+          return take({&found, 1});
+        });
   }
 
  private:
-  std::vector<BinaryTree> trees_;
+  std::vector<BoxTree> trees_;
   std::vector<IndexPair> open_;  // pairs of nodes
 };
 

@@ -1,4 +1,5 @@
-// Pairs of one mesh with itself: a gap away from each other, touching, and deep in each other.
+// Pairs of one mesh with itself, and of a mesh and a small convex body: a gap away from each other, touching,
+// and deep in each other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <memory>
 
 #include "algorithms/core/nearest_float.h"
+#include "algorithms/hull/convex_hull.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/hash.h"
@@ -37,9 +39,33 @@ std::unique_ptr<ConcavePhase> make_phase(const ConcaveEntry& entry, Precision sc
   return entry.make(settings);
 }
 
+// Names of convex bodies. Their greatest half extent is this part of the mesh's.
+constexpr std::array<std::string_view, 4> convex_names = {"sphere", "capsule", "box", "hull-32"};
+constexpr double convex_size = 0.05;
+
+// The shape with that greatest half extent (metres).
+Shape convex_shape(std::string_view name, double size, base::Random& random) {
+  Shape shape;
+  if (name == "hull-32") {
+    std::vector<Vec3d> points;
+    for (int i = 0; i < 32; ++i) points.push_back(nearest_float(Vec3d(size * random.on_sphere())));
+    return hull_of(std::move(points));
+  }
+  const auto rounded = [&](double part) { return nearest_float(Vec3d::Constant(part * size))[0]; };
+  shape.kind = name == "sphere"    ? ShapeKind::sphere
+               : name == "capsule" ? ShapeKind::capsule
+                                   : ShapeKind::box;
+  shape.radius = rounded(name == "sphere" ? 1 : 0.4);
+  shape.half_length = rounded(0.6);
+  shape.half_extents = {rounded(1), rounded(0.8), rounded(0.6)};
+  return shape;
+}
+
+// The second body is the last one: the convex one, or the mesh again.
 struct ConcaveInput {
   std::vector<ConcaveBody> bodies;
-  double size = 0;  // half of the mesh's greatest extent, metres
+  double size = 0;  // half of the second body's greatest extent, metres
+  std::uint32_t second() const { return static_cast<std::uint32_t>(bodies.size() - 1); }
   std::vector<std::pair<PlacedConcave, PlacedConcave>> asked;
   std::vector<Outcome> exact;
   std::vector<std::uint64_t> exact_pairs;
@@ -65,19 +91,36 @@ struct Answers {
 };
 
 // Rotations are random, and rounded to floats with all translations, so that peers see the same bodies.
-PlacedConcave placed(base::Random& random) {
-  PlacedConcave body{0, {random.rotation(), Vec3d::Zero()}};
+PlacedConcave placed(std::uint32_t body, base::Random& random) {
+  PlacedConcave placed{body, {random.rotation(), Vec3d::Zero()}};
   for (int k = 0; k < 3; ++k)
-    body.pose.rotation.col(k) = nearest_float(Vec3d(body.pose.rotation.col(k)));
-  return body;
+    placed.pose.rotation.col(k) = nearest_float(Vec3d(placed.pose.rotation.col(k)));
+  return placed;
 }
 
-// Moves b along a direction to where the bodies first touch, by bisection, and from there to its place.
+// The way from a point of a to b: from the mesh's origin, or from a point of its surface, away from it
+// within half a right angle or so.
+struct Approach {
+  Vec3d start, direction;
+};
+Approach approach_of(const ConcaveInput& input, const PlacedConcave& a, base::Random& random) {
+  const Vec3d any = random.on_sphere();
+  if (input.second() == 0) return {Vec3d::Zero(), any};
+  const TriangleMesh& mesh = *input.bodies[0].mesh;
+  const auto& corners = mesh.triangles[random.next() % mesh.triangles.size()];
+  const Vec3d &p = mesh.vertices[corners[0]], &q = mesh.vertices[corners[1]],
+              &r = mesh.vertices[corners[2]];
+  const Vec3d outward = a.pose.rotation * (q - p).cross(r - p).normalized();
+  return {a.pose((p + q + r) / 3), (outward + 0.5 * any).normalized()};
+}
+
+// Moves b along the way to where the bodies first touch, by bisection, and from there to its place.
 void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Random& random) {
-  PlacedConcave a = placed(random), b = placed(random);
-  const Vec3d direction = random.on_sphere();
+  const PlacedConcave a = placed(0, random);
+  PlacedConcave b = placed(input.second(), random);
+  const Approach way = approach_of(input, a, random);
   const auto at = [&](double distance) {
-    b.pose.translation = nearest_float(Vec3d(distance * direction));
+    b.pose.translation = nearest_float(Vec3d(way.start + distance * way.direction));
     Outcome outcome;
     std::vector<IndexPair> pairs;
     phase.solve(ConcaveTask::intersect, a, b, outcome, pairs);
@@ -88,10 +131,12 @@ void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Ran
     const double middle = 0.5 * (in + out);
     (at(middle) ? in : out) = middle;
   }
+  // Meshes reach 0.2 % of their size into each other, a small convex body 2 %.
+  const double depth = input.second() == 0 ? 0.004 : 0.04;
   switch (place) {
     case Place::gap_10: at(out + 0.2 * input.size); break;
     case Place::gap_1: at(out + 0.02 * input.size); break;
-    case Place::touching: at(in - 0.004 * input.size); break;
+    case Place::touching: at(in - depth * input.size); break;
     case Place::deep: at(0.5 * in); break;
   }
   input.asked.emplace_back(a, b);
@@ -121,15 +166,26 @@ Grade grade(const ConcaveInput& input, ConcaveTask task, Answers& answers) {
   return grade;
 }
 
-Cell make_concave_cell(const std::shared_ptr<const TriangleMesh>& mesh, Place place,
-                       ConcaveTask task, std::size_t count, std::uint64_t seed,
-                       const std::vector<const ConcaveEntry*>& entries) {
+// The bodies of a cell. Without a name of a convex shape the mesh meets itself.
+struct Bodies {
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::string_view convex;
+};
+
+Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std::size_t count,
+                       std::uint64_t seed, const std::vector<const ConcaveEntry*>& entries) {
   const auto input = std::make_shared<ConcaveInput>();
+  const auto& mesh = bodies.mesh;
   input->bodies.push_back({mesh, {}});
   for (const Vec3d& v : mesh->vertices)
     input->size = std::max(input->size, v.cwiseAbs().maxCoeff());
+  if (!bodies.convex.empty()) {
+    input->size *= convex_size;
+    base::Random shape(seed, 100);
+    input->bodies.push_back({nullptr, {{convex_shape(bodies.convex, input->size, shape), {}, 0}}});
+  }
   const std::unique_ptr<ConcavePhase> placing =
-      make_phase(*find_concave_phase("part-pairs"), Precision::float64);
+      make_phase(*find_concave_phase("fused"), Precision::float64);
   placing->bind(input->bodies);
   base::Random random(seed, static_cast<std::uint64_t>(place));
   for (std::size_t i = 0; i < count; ++i) place_pair(*input, place, *placing, random);
@@ -146,7 +202,7 @@ Cell make_concave_cell(const std::shared_ptr<const TriangleMesh>& mesh, Place pl
   Cell cell;
   cell.queries = cell.graded = static_cast<std::int64_t>(count);
   for (const ConcaveEntry* entry : entries) {
-    if (entry->supports != nullptr && !entry->supports(input->bodies[0], input->bodies[0]))
+    if (entry->supports != nullptr && !entry->supports(input->bodies[0], input->bodies.back()))
       continue;
     for (const Precision scalar : entry->scalars) {
       if (!offers(*entry, task, scalar)) continue;
@@ -166,6 +222,21 @@ Cell make_concave_cell(const std::shared_ptr<const TriangleMesh>& mesh, Place pl
   return cell;
 }
 
+std::shared_ptr<const TriangleMesh> read_mesh_of(const std::string& name,
+                                                 const std::filesystem::path& home,
+                                                 files::TomlTable& table, const char* key) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  try {
+    geometry::Mesh read = geometry::named_mesh(name, home);
+    mesh->vertices = std::move(read.vertices);
+    mesh->triangles = std::move(read.triangles);
+  } catch (const base::InputError& error) {
+    table.fail(key, error.what());
+  }
+  if (mesh->triangles.empty()) table.fail(key, name + " has no triangles; expected some");
+  return mesh;
+}
+
 }  // namespace
 
 std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::filesystem::path& home) {
@@ -175,24 +246,34 @@ std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::files
   const std::vector<std::size_t> tasks = choices(table, "tasks", concave_task_names);
   const auto entries = selected(table, concave_phases(), "concave phase");
   std::vector<PlannedCell> cells;
+  const auto add = [&](const std::string& group, const Bodies& bodies, std::size_t task,
+                       std::size_t place) {
+    cells.push_back(
+        {group, fmt::format("{}, {}", concave_task_names[task], place_names[place]), [=] {
+           return make_concave_cell(bodies, static_cast<Place>(place),
+                                    static_cast<ConcaveTask>(task), count, seed, entries);
+         }});
+  };
   for (const std::string& name : table.texts("meshes", {"torus-2000", "trefoil-10000"})) {
-    const auto mesh = std::make_shared<TriangleMesh>();
-    try {
-      geometry::Mesh read = geometry::named_mesh(name, home);
-      mesh->vertices = std::move(read.vertices);
-      mesh->triangles = std::move(read.triangles);
-    } catch (const base::InputError& error) {
-      table.fail("meshes", error.what());
-    }
-    if (mesh->triangles.empty()) table.fail("meshes", name + " has no triangles; expected some");
+    const auto mesh = read_mesh_of(name, home, table, "meshes");
     for (const std::size_t task : tasks) {
       for (const std::size_t place : places) {
-        cells.push_back({fmt::format("{}, {} triangles", name, mesh->triangles.size()),
-                         fmt::format("{}, {}", concave_task_names[task], place_names[place]), [=] {
-                           return make_concave_cell(mesh, static_cast<Place>(place),
-                                                    static_cast<ConcaveTask>(task), count, seed,
-                                                    entries);
-                         }});
+        add(fmt::format("{}, {} triangles", name, mesh->triangles.size()), {mesh, {}}, task, place);
+      }
+    }
+  }
+  const std::vector<std::size_t> convex = choices(table, "convex", convex_names);
+  for (const std::string& name : table.texts("convex_meshes", {})) {
+    const auto mesh = read_mesh_of(name, home, table, "convex_meshes");
+    for (const std::size_t shape : convex) {
+      for (const std::size_t task : tasks) {
+        for (const std::size_t place : places) {
+          if (static_cast<ConcaveTask>(task) == ConcaveTask::distance) continue;
+          if (static_cast<Place>(place) == Place::gap_1) continue;
+          add(fmt::format("{} and {}, {} triangles", convex_names[shape], name,
+                          mesh->triangles.size()),
+              {mesh, convex_names[shape]}, task, place);
+        }
       }
     }
   }

@@ -94,8 +94,7 @@ void ConvexPairs::solve_in_order(Task task, std::span<const std::uint32_t> pairs
         .pairs = {.first = a, .second = b, .shape_of = shape_of, .poses = poses_}};
     narrow_phase_->solve(task, batch, found);
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-      if (needs_swap(numbers[k])) std::swap(found[k].witness_a, found[k].witness_b);
-      outcomes[numbers[k]] = found[k];
+      outcomes[numbers[k]] = needs_swap(numbers[k]) ? swapped(found[k]) : found[k];
     }
   }
 }

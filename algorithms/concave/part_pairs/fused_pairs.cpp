@@ -1,5 +1,6 @@
 // Pairs of triangles by a descent whose leaves are tested eight triangles at once.
 #include <bit>
+#include <utility>
 
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
 #include "algorithms/core/mesh/common_frame.h"
@@ -9,28 +10,21 @@
 namespace touchstone {
 namespace {
 
-// A mesh in the order of its tree's leaves.
-struct TreeOfTriangles {
-  WideBvh tree;
-  std::vector<TriangleBlock> blocks;
-};
-
 class FusedPairs final : public MeshPairs {
  public:
-  void bind(std::span<const BoundBody> bodies) override {
-    bodies_ = bodies;
-    trees_.clear();
-    for (const BoundBody& body : bodies) {
-      TreeOfTriangles& tree = trees_.emplace_back();
-      if (body.mesh() == nullptr) continue;
-      tree.tree = build_wide_bvh(body.boxes);
-      tree.blocks = triangle_blocks(*body.mesh(), tree.tree.order);
-    }
-  }
+  explicit FusedPairs(std::shared_ptr<const MeshTrees> trees) : trees_(std::move(trees)) {}
+
+  void bind(std::span<const BoundBody> bodies) override { bodies_ = bodies; }
 
   void find(const PlacedConcave& a, const PlacedConcave& b, const TakePartPairs& take) override {
-    Search search{
-        trees_[a.body], trees_[b.body], bodies_[a.body], bodies_[b.body], a.pose, b.pose, {}, take};
+    Search search{(*trees_)[a.body],
+                  (*trees_)[b.body],
+                  bodies_[a.body],
+                  bodies_[b.body],
+                  a.pose,
+                  b.pose,
+                  {},
+                  take};
     search.frame = common_frame(a.pose, search.body_a.reach, b.pose, search.body_b.reach);
     const DescentFrame frame =
         descent_frame(search.frame, search.body_a.reach, search.body_b.reach);
@@ -44,7 +38,7 @@ class FusedPairs final : public MeshPairs {
 
  private:
   struct Search {
-    const TreeOfTriangles &a, &b;
+    const MeshTree &a, &b;
     const BoundBody &body_a, &body_b;
     const Pose &pose_a, &pose_b;
     CommonFrame frame;
@@ -79,12 +73,14 @@ class FusedPairs final : public MeshPairs {
   };
 
   std::span<const BoundBody> bodies_;
-  std::vector<TreeOfTriangles> trees_;
+  std::shared_ptr<const MeshTrees> trees_;
   WideDescent descent_;
 };
 
 }  // namespace
 
-std::unique_ptr<MeshPairs> fused_pairs() { return std::make_unique<FusedPairs>(); }
+std::unique_ptr<MeshPairs> fused_pairs(std::shared_ptr<const MeshTrees> trees) {
+  return std::make_unique<FusedPairs>(std::move(trees));
+}
 
 }  // namespace touchstone

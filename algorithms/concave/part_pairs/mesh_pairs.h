@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algorithms/concave/part_pairs/bound_body.h"
+#include "algorithms/concave/part_pairs/mesh_tree.h"
 #include "algorithms/concave_phase.h"
 
 namespace touchstone {
@@ -29,8 +30,8 @@ using RoughTest = int (*)(const TriangleCorners& a, const TriangleCorners& b, do
 std::unique_ptr<MeshPairs> tested_pairs(std::shared_ptr<MidPhase> mid_phase, RoughTest test);
 
 // Wide trees whose leaves are tested as a whole by the signs of volumes (kernels/triangles), without
-// a mid-phase.
-std::unique_ptr<MeshPairs> fused_pairs();
+// a mid-phase. The trees are those of the bodies that are bound.
+std::unique_ptr<MeshPairs> fused_pairs(std::shared_ptr<const MeshTrees> trees);
 
 // The signs of volumes for one pair.
 int test_by_signs(const TriangleCorners& a, const TriangleCorners& b, double error);

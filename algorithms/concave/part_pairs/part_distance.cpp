@@ -114,12 +114,14 @@ struct Search {
 
 }  // namespace
 
-void PartDistance::bind(std::span<const BoundBody> bodies) {
+void PartDistance::bind(std::span<const BoundBody> bodies, const MeshTrees& given) {
   bodies_ = bodies;
+  given_ = &given;
   trees_.assign(bodies.size(), {});
 }
 
 const WideBvh& PartDistance::tree_of(std::uint32_t body) {
+  if (body < given_->size() && !(*given_)[body].tree.nodes.empty()) return (*given_)[body].tree;
   if (trees_[body].nodes.empty()) trees_[body] = build_wide_bvh(bodies_[body].boxes);
   return trees_[body];
 }

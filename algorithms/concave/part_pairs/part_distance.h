@@ -6,6 +6,7 @@
 
 #include "algorithms/concave/part_pairs/bound_body.h"
 #include "algorithms/concave/part_pairs/convex_pairs.h"
+#include "algorithms/concave/part_pairs/mesh_tree.h"
 #include "algorithms/concave_phase.h"
 #include "algorithms/kernels/bvh/wide_nearest.h"
 
@@ -13,8 +14,9 @@ namespace touchstone {
 
 class PartDistance {
  public:
-  // The bodies stay alive and unchanged. Trees are built with the first query.
-  void bind(std::span<const BoundBody> bodies);
+  // The bodies and trees stay alive and unchanged. Trees of bodies that are not among these are built
+  // with the first query.
+  void bind(std::span<const BoundBody> bodies, const MeshTrees& given);
 
   // Writes the distance, its bounds, the points and the normal. `lower` and `upper` are certified:
   // they cover all rounding; between convex parts they are those of the narrow phase. Where they are further apart than 1e-9 of the distance and 1e-12 of the
@@ -26,6 +28,7 @@ class PartDistance {
   const WideBvh& tree_of(std::uint32_t body);
 
   std::span<const BoundBody> bodies_;
+  const MeshTrees* given_ = nullptr;
   std::vector<WideBvh> trees_;
   WideNearest nearest_;
 };

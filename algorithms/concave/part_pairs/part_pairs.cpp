@@ -3,24 +3,28 @@
 //          1997; Guigue, Devillers, JGT 2003; mesh_pairs.h and kernels/triangles have those of the
 //          signs of volumes.
 // Steps:   1. Bind: boxes of all parts go to the mid-phase; `fused` builds trees of its own for
-//             meshes.
+//             meshes, and gives boxes to the mid-phase when two bodies of convex parts are asked.
 //          2. Two meshes: pairs of triangles are decided by the signs of volumes in doubles, and in
 //             integers where rounding hides a sign. `fused` tests two leaves of eight at once.
 //          3. A convex part with a convex part or a triangle: a narrow phase decides, sixty-four
-//             pairs at a time.
+//             pairs at a time. `fused` searches the mesh's tree in the part's frame and tests leaves
+//             of eight triangles (convex_search); the narrow phase gets what rounding leaves open.
 //          4. Where no parts meet and a body is solid, exact winding numbers tell whether a piece of
 //             the other lies inside (interior).
 //          5. distance: the trees' nearest pairs first (part_distance).
+//          6. measure: the narrow phase gives each pair's depth and normal.
 // Departs: `moller` and `guigue-devillers` decide each pair of triangles in doubles, as their papers
 //          do, and are wrong where rounding is.
 // Fails:   poses of parts within turned compounds are rounded; where that hides a verdict the answer
 //          is unknown and the status degenerate. Each pair in which rounding hides a sign costs some
 //          microseconds, so that a mesh on itself is slow.
 // Cost:    two meshes: O(log n + k) where little meets, k = pairs of leaves that are near.
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "algorithms/concave/part_pairs/convex_pairs.h"
+#include "algorithms/concave/part_pairs/convex_search.h"
 #include "algorithms/concave/part_pairs/interior.h"
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
 #include "algorithms/concave/part_pairs/part_distance.h"
@@ -31,19 +35,35 @@ namespace {
 
 class PartPairs final : public ConcavePhase {
  public:
-  using MakeMeshPairs = std::unique_ptr<MeshPairs> (*)(std::shared_ptr<MidPhase>);
-
-  PartPairs(const ConcaveSettings& settings, MakeMeshPairs make)
-      : mid_phase_(settings.mid_phase()),
-        mesh_pairs_(make(mid_phase_)),
-        convex_pairs_(settings.narrow_phase()) {}
+  // A null test makes `fused`.
+  PartPairs(const ConcaveSettings& settings, RoughTest test)
+      : trees_(std::make_shared<MeshTrees>()), convex_pairs_(settings.narrow_phase()) {
+    if (test == nullptr) {
+      mesh_pairs_ = fused_pairs(trees_);
+      search_.emplace(trees_);
+      make_mid_phase_ = settings.mid_phase;
+    } else {
+      mid_phase_ = settings.mid_phase();
+      mesh_pairs_ = tested_pairs(mid_phase_, test);
+    }
+  }
 
   void bind(std::span<const ConcaveBody> bodies) override {
     bodies_.clear();
     bodies_.reserve(bodies.size());
-    for (const ConcaveBody& body : bodies) mid_phase_->add(bodies_.emplace_back(body).boxes);
+    trees_->clear();
+    for (const ConcaveBody& body : bodies) {
+      bodies_.emplace_back(body);
+      if (search_) trees_->push_back(mesh_tree(bodies_.back()));
+    }
+    if (search_) {
+      mid_phase_ = nullptr;
+      search_->bind(bodies_);
+    } else {
+      fill_mid_phase();
+    }
     mesh_pairs_->bind(bodies_);
-    distances_.bind(bodies_);
+    distances_.bind(bodies_, *trees_);
   }
 
   void solve(ConcaveTask task, const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome,
@@ -59,7 +79,8 @@ class PartPairs final : public ConcavePhase {
         return all;
       });
     } else {
-      find_convex(a, b, all, pairs, undecided);
+      waiting_.clear();
+      if (!search_meshes(a, b, all, pairs, undecided)) find_convex(a, b, all, pairs, undecided);
     }
     if (undecided) outcome.status = *undecided;
     if (!pairs.empty() || is_inside(a, b)) {
@@ -73,32 +94,79 @@ class PartPairs final : public ConcavePhase {
     }
   }
 
+  bool measure(const PlacedConcave& a, const PlacedConcave& b, std::span<const IndexPair> pairs,
+               std::vector<PartContact>& contacts) override {
+    contacts.clear();
+    const auto outcomes = convex_pairs_.solve(Task::penetration, bodies_[a.body], a.pose,
+                                              bodies_[b.body], b.pose, pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Outcome& found = outcomes[i];
+      PartContact& contact = contacts.emplace_back();
+      contact.parts = pairs[i];
+      contact.status = found.status;
+      if (!found.normal.allFinite()) continue;
+      contact.normal = found.normal;
+      contact.depth = std::max(0.0, -found.distance);
+      contact.point = (found.witness_a + found.witness_b) / 2;
+    }
+    return true;
+  }
+
  private:
   static constexpr std::size_t portion = 64;
 
+  void fill_mid_phase() {
+    for (const BoundBody& body : bodies_) mid_phase_->add(body.boxes);
+  }
+
+  // Asks the narrow phase about the pairs that wait. Returns false if no more is wanted.
+  bool decide(const PlacedConcave& a, const PlacedConcave& b, bool all,
+              std::vector<IndexPair>& pairs, std::optional<Status>& undecided) {
+    const auto outcomes = convex_pairs_.solve(Task::intersect, bodies_[a.body], a.pose,
+                                              bodies_[b.body], b.pose, waiting_);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      const Outcome& found = outcomes[i];
+      const bool stands = found.status == Status::ok || found.status == Status::not_reported;
+      if (found.answer == Answer::unknown || !stands) undecided = found.status;
+      if (found.answer == Answer::touching || found.answer == Answer::overlapping) {
+        pairs.push_back(waiting_[i]);
+      }
+    }
+    waiting_.clear();
+    return all || pairs.empty();
+  }
+
+  // A mesh and convex parts, in lanes; returns false if that is not how to find them.
+  bool search_meshes(const PlacedConcave& a, const PlacedConcave& b, bool all,
+                     std::vector<IndexPair>& pairs, std::optional<Status>& undecided) {
+    if (!search_) return false;
+    const bool mesh_first = bodies_[a.body].mesh() != nullptr;
+    if (!mesh_first && bodies_[b.body].mesh() == nullptr) return false;
+    const auto take = [&](std::uint32_t part, std::span<const std::uint32_t> triangles, bool open) {
+      std::vector<IndexPair>& to = open ? waiting_ : pairs;
+      for (const std::uint32_t triangle : triangles) {
+        to.push_back(mesh_first ? IndexPair{triangle, part} : IndexPair{part, triangle});
+      }
+      if (!open) return all;
+      return waiting_.size() < portion || decide(a, b, all, pairs, undecided);
+    };
+    if (!search_->find(mesh_first ? b : a, mesh_first ? a : b, take)) return false;
+    if (!waiting_.empty() && (all || pairs.empty())) decide(a, b, all, pairs, undecided);
+    return true;
+  }
+
   void find_convex(const PlacedConcave& a, const PlacedConcave& b, bool all,
                    std::vector<IndexPair>& pairs, std::optional<Status>& undecided) {
-    const auto decide = [&] {
-      const auto outcomes = convex_pairs_.solve(Task::intersect, bodies_[a.body], a.pose,
-                                                bodies_[b.body], b.pose, waiting_);
-      for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        const Outcome& found = outcomes[i];
-        const bool stands = found.status == Status::ok || found.status == Status::not_reported;
-        if (found.answer == Answer::unknown || !stands) undecided = found.status;
-        if (found.answer == Answer::touching || found.answer == Answer::overlapping) {
-          pairs.push_back(waiting_[i]);
-        }
-      }
-      waiting_.clear();
-      return all || pairs.empty();
-    };
-    waiting_.clear();
+    if (mid_phase_ == nullptr) {
+      mid_phase_ = make_mid_phase_();
+      fill_mid_phase();
+    }
     const bool ended = !mid_phase_->find_pairs(
         a.body, a.pose, b.body, b.pose, [&](std::span<const IndexPair> found) {
           waiting_.insert(waiting_.end(), found.begin(), found.end());
-          return waiting_.size() < portion || decide();
+          return waiting_.size() < portion || decide(a, b, all, pairs, undecided);
         });
-    if (!ended && !waiting_.empty()) decide();
+    if (!ended && !waiting_.empty()) decide(a, b, all, pairs, undecided);
   }
 
   bool is_inside(const PlacedConcave& a, const PlacedConcave& b) const {
@@ -108,25 +176,22 @@ class PartPairs final : public ConcavePhase {
   }
 
   std::vector<BoundBody> bodies_;
-  std::shared_ptr<MidPhase> mid_phase_;
+  std::shared_ptr<MeshTrees> trees_;  // of `fused`
+  std::function<std::unique_ptr<MidPhase>()> make_mid_phase_;
+  std::shared_ptr<MidPhase> mid_phase_;  // null until it is needed
   std::unique_ptr<MeshPairs> mesh_pairs_;
+  std::optional<ConvexSearch> search_;  // of `fused`
   ConvexPairs convex_pairs_;
   PartDistance distances_;
   std::vector<IndexPair> waiting_;
 };
 
-template <RoughTest test>
-std::unique_ptr<MeshPairs> tested(std::shared_ptr<MidPhase> mid_phase) {
-  return tested_pairs(std::move(mid_phase), test);
-}
-std::unique_ptr<MeshPairs> fused(std::shared_ptr<MidPhase>) { return fused_pairs(); }
-
-ConcaveEntry entry(const char* name, const char* citation, PartPairs::MakeMeshPairs make) {
+ConcaveEntry entry(const char* name, const char* citation, RoughTest test) {
   return {.info = {.name = name, .citation = citation},
           .tasks = {ConcaveTask::intersect, ConcaveTask::distance, ConcaveTask::contacts},
           .scalars = {Precision::float64},
-          .make = [make](const ConcaveSettings& settings) {
-            return std::make_unique<PartPairs>(settings, make);
+          .make = [test](const ConcaveSettings& settings) {
+            return std::make_unique<PartPairs>(settings, test);
           }};
 }
 
@@ -143,20 +208,21 @@ std::vector<ConcaveEntry> concave_part_pairs() {
           "fused",
           "a descent of two trees of eight boxes a node, whose leaves are tested by fifteen signs "
           "of volumes in vector lanes; integers where rounding hides a sign",
-          fused),
+          nullptr),
       entry("part-pairs",
             "a mid-phase, then signs of volumes or a narrow phase for each pair of parts; integers "
             "where rounding hides a sign",
-            tested<test_by_signs>),
+            test_by_signs),
       entry("moller", "T. Moller, \"A fast triangle-triangle intersection test\", JGT 2(2), 1997",
-            tested<test_by_moller>),
+            test_by_moller),
       entry("guigue-devillers",
             "P. Guigue, O. Devillers, \"Fast and robust triangle-triangle overlap test using "
             "orientation predicates\", JGT 8(1), 2003",
-            tested<test_by_guigue_devillers>)};
+            test_by_guigue_devillers)};
   for (ConcaveEntry& made : entries) {
     made.takes_mid_phase = made.info.name != "fused";
     made.approximate = made.info.name == "moller" || made.info.name == "guigue-devillers";
+    made.measures = !made.approximate;
     if (!made.approximate) continue;
     made.supports = both_are_meshes;
     made.tasks = {ConcaveTask::intersect, ConcaveTask::contacts};

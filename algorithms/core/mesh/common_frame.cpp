@@ -2,11 +2,12 @@
 //
 // u is half an epsilon; norms are those of the greatest sum of a row's magnitudes.
 //
-// In the frame of a, with E = I - A'A for a's rotation A, the exact place of b's point y is
-// (I - E)^-1 A' (B y + t), t = t_b - t_a. It is off from A' (B y + t) by at most |E| / (1 - |E|)
-// times that, and A' (B y + t) is at most m = |A'| (|B| |y| + |t|). Rounding adds u |t| for the
-// difference, 3 u for each product of three terms, and 4 u for the map of a point: together less
-// than 12 u m. E is computed to 4 u |A'| |A| < 16 u.
+// In the frame of a, let A' be about the inverse of a's rotation A: its transpose, or, if that is off,
+// as where rotations were rounded to floats, the inverse in doubles. With E = I - A'A the exact place of
+// b's point y is (I - E)^-1 A' (B y + t), t = t_b - t_a. It is off from A' (B y + t) by at most
+// |E| / (1 - |E|) times that, and A' (B y + t) is at most m = |A'| (|B| |y| + |t|). Rounding adds u |t|
+// for the difference, 3 u for each product of three terms, and 4 u for the map of a point: together less
+// than 12 u m. E is computed to 4 u |A'| |A|.
 //
 // In the moved world a map of three products and two sums is off by at most 4 u times the sum of
 // its magnitudes, and the difference of translations by u more.
@@ -21,9 +22,14 @@ namespace {
 
 constexpr double u = std::numeric_limits<double>::epsilon() / 2;
 constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double least_skew = 64 * u;  // of the transpose of what is a rotation in doubles
 constexpr double greatest_skew = 1e-10;
 
 double norm(const Mat3d& m) { return m.cwiseAbs().rowwise().sum().maxCoeff(); }
+
+double skew_of(const Mat3d& inverse, const Mat3d& m) {
+  return norm(inverse * m - Mat3d::Identity()) + 8 * u * norm(inverse) * norm(m);
+}
 
 // Returns true if x y + z is the same in doubles and exactly.
 bool is_exact(double x, double y, double z) {
@@ -47,9 +53,13 @@ double dot(const Mat3d& m, int row, const Vec3d& v, double start, bool& exact) {
 
 CommonFrame common_frame(const Pose& a, double reach_a, const Pose& b, double reach_b) {
   CommonFrame frame;
-  const Mat3d turned = a.rotation.transpose();
+  Mat3d turned = a.rotation.transpose();
   const Vec3d offset = b.translation - a.translation;
-  const double skew = norm(turned * a.rotation - Mat3d::Identity()) + 16 * u;
+  double skew = skew_of(turned, a.rotation);
+  if (!(skew <= least_skew)) {
+    turned = a.rotation.inverse();
+    skew = skew_of(turned, a.rotation);
+  }
   const double far = norm(b.rotation) * reach_b + offset.cwiseAbs().maxCoeff();
   if (skew <= greatest_skew) {
     frame.b.rotation = turned * b.rotation;

@@ -6,9 +6,9 @@
 
 namespace touchstone {
 
-// Two bodies, both seen from the first one. If its rotation is orthonormal up to 1e-10, the frame is
-// its own, and its points are taken as they stand. Otherwise the frame is the world, moved by its
-// translation.
+// Two bodies, both seen from the first one. The frame is its own, and its points are taken as they stand:
+// common points are the same in any frame. Only if its rotation has no inverse to 1e-10, the frame is the
+// world, moved by its translation.
 struct CommonFrame {
   bool is_of_a = true;
   // The maps into the frame; `a` is the identity if is_of_a.

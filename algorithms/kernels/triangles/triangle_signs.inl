@@ -1,46 +1,6 @@
 // The loops of triangle_signs.cpp, once for each level of vector instructions.
 
-using Lanes = Simd<double>;
-using Vector = typename Lanes::Vector;
-
-struct Points {
-  Vector x, y, z;
-};
-
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points points_at(const TriangleBlock& block, std::size_t corner,
-                                                     std::size_t lane) {
-  return {Lanes::load(&block.at[3 * corner][lane]), Lanes::load(&block.at[3 * corner + 1][lane]),
-          Lanes::load(&block.at[3 * corner + 2][lane])};
-}
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points point_of(const TriangleBlock& block, std::size_t corner,
-                                                    std::size_t lane) {
-  return {Lanes::broadcast(block.at[3 * corner][lane]),
-          Lanes::broadcast(block.at[3 * corner + 1][lane]),
-          Lanes::broadcast(block.at[3 * corner + 2][lane])};
-}
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points minus(const Points& p, const Points& q) {
-  return {p.x - q.x, p.y - q.y, p.z - q.z};
-}
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points cross(const Points& p, const Points& q) {
-  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-}
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector dot(const Points& p, const Points& q) {
-  return p.x * q.x + p.y * q.y + p.z * q.z;
-}
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points least(const Points& p, const Points& q) {
-  return {Lanes::min(p.x, q.x), Lanes::min(p.y, q.y), Lanes::min(p.z, q.z)};
-}
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points greatest(const Points& p, const Points& q) {
-  return {Lanes::max(p.x, q.x), Lanes::max(p.y, q.y), Lanes::max(p.z, q.z)};
-}
-
-// The lanes in which a volume is surely positive, and surely negative.
-struct Sign {
-  unsigned plus, minus;
-};
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Sign sign_of(Vector volume, Vector bound, Vector below) {
-  return {Lanes::to_bits(Lanes::less(bound, volume)), Lanes::to_bits(Lanes::less(volume, below))};
-}
+#include "algorithms/kernels/triangles/lane_points.inl"
 
 // Edges of one triangle against the other: the lanes in which one surely pierces it, and in which
 // all surely miss it.
@@ -127,7 +87,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline bool compare_blocks(const TriangleBl
   signs = {};
   unsigned any = 0;
   for (std::size_t at = 0; at < TriangleBlock::size; at += Lanes::width) {
-    const unsigned wanted = all_b >> at & ((1u << Lanes::width) - 1);
+    const unsigned wanted = all_b >> at & lane_bits;
     const Points p[3] = {points_at(b, 0, at), points_at(b, 1, at), points_at(b, 2, at)};
     const Points edges[3] = {minus(p[1], p[0]), minus(p[2], p[1]), minus(p[0], p[2])};
     const Points low = least(least(p[0], p[1]), p[2]);

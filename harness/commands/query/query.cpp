@@ -41,7 +41,7 @@ const Arguments::Choices<QueryTask>& query_tasks() {
 }
 
 struct QueryOptions {
-  std::string cases, narrow, out, id, pairs;
+  std::string cases, narrow, out, id, pairs, contacts;
   std::string mid = "wide-bvh", parts = "certified";
   QueryTask asked = query_tasks()[0].second;
   Task task = Task::intersect;  // of narrow phases
@@ -115,7 +115,8 @@ void ask_concave_phases(const QueryOptions& options, const std::vector<files::Co
                  .parts = options.parts,
                  .time_limit = options.time_limit,
                  .out = options.out,
-                 .pairs = options.pairs},
+                 .pairs = options.pairs,
+                 .contacts = options.contacts},
                 cases);
 }
 
@@ -153,6 +154,9 @@ void query(QueryOptions& options) {
   const std::vector<files::ConcaveCase> cases = asked_cases(options);
   if (!options.pairs.empty() && options.asked.of_convex) {
     throw base::InputError("--pairs was given; expected it with --task contacts alone");
+  }
+  if (!options.contacts.empty() && options.asked.of_convex) {
+    throw base::InputError("--contacts was given; expected it with --task contacts alone");
   }
   if (asks_concave_phases(options, cases)) return ask_concave_phases(options, cases);
   options.task = *options.asked.of_convex;
@@ -197,6 +201,8 @@ void add_query(Arguments command) {
   command.text("--out", options->out, "The CSV file to write").required();
   command.text("--pairs", options->pairs,
                "With --task contacts: the CSV file of the pairs of parts that share a point");
+  command.text("--contacts", options->contacts,
+               "With --task contacts: the CSV file of these pairs' normals, depths and points");
   command.text("--mid", options->mid, "Concave phases: the mid-phase that finds pairs of parts")
       .show_default();
   command

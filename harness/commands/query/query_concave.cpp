@@ -30,6 +30,7 @@ struct ConcaveAnswers {
   const ConcaveEntry* entry;
   std::vector<ConcaveAnswer> answers;
   std::vector<std::vector<IndexPair>> pairs;
+  std::vector<std::vector<PartContact>> contacts;
 };
 
 class ConcaveQueryRun {
@@ -50,8 +51,9 @@ class ConcaveQueryRun {
   }
 
   ConcaveAnswers ask(const ConcaveEntry& entry) const {
-    ConcaveAnswers all = {&entry, std::vector<ConcaveAnswer>(cases_.size()), {}};
+    ConcaveAnswers all = {&entry, std::vector<ConcaveAnswer>(cases_.size()), {}, {}};
     all.pairs.resize(cases_.size());
+    all.contacts.resize(cases_.size());
     std::vector<std::size_t> taken;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       const bool supported = entry.supports == nullptr || entry.supports(cases_[i].a, cases_[i].b);
@@ -61,7 +63,7 @@ class ConcaveQueryRun {
     const auto solved = process::isolated_answers<ConcaveAnswer>(taken.size(), limits, [&] {
       return [&](std::size_t item) {
         std::vector<IndexPair> pairs;
-        return solve(entry, cases_[taken[item]], pairs);
+        return solve(entry, cases_[taken[item]], pairs, nullptr);
       };
     });
     for (std::size_t item = 0; item < taken.size(); ++item) {
@@ -70,7 +72,7 @@ class ConcaveQueryRun {
     print_failures(entry.info.name, solved.failures, [&](std::size_t item) {
       return fmt::format("case '{}'", cases_[taken[item]].id);
     });
-    if (!query_.pairs.empty()) fetch_pairs(all);
+    if (!query_.pairs.empty() || !query_.contacts.empty()) fetch_pairs(all);
     return all;
   }
 
@@ -88,12 +90,16 @@ class ConcaveQueryRun {
   }
 
   ConcaveAnswer solve(const ConcaveEntry& entry, const files::ConcaveCase& c,
-                      std::vector<IndexPair>& pairs) const {
+                      std::vector<IndexPair>& pairs, std::vector<PartContact>* contacts) const {
     const std::vector<ConcaveBody> bodies = {c.a, c.b};
     const std::unique_ptr<ConcavePhase> algorithm = entry.make(settings_);
     algorithm->bind(bodies);
     ConcaveAnswer answer;
     algorithm->solve(query_.task, {0, c.pose_a}, {1, c.pose_b}, answer.outcome, pairs);
+    if (contacts != nullptr) {
+      std::ranges::sort(pairs);
+      algorithm->measure({0, c.pose_a}, {1, c.pose_b}, pairs, *contacts);
+    }
     answer.status = answer.outcome.status;
     answer.pair_count = pairs.size();
     answer.pair_hash = base::pair_hash(pairs);
@@ -106,12 +112,17 @@ class ConcaveQueryRun {
       const std::size_t count = all.answers[i].pair_count;
       if (count == 0) continue;
       process::SharedArray<IndexPair> fetched(count);
+      const bool measured = !query_.contacts.empty() && all.entry->measures;
+      process::SharedArray<PartContact> fetched_contacts(measured ? count : 1);
       const process::IsolationLimits limits = {.item_seconds = query_.time_limit};
       const auto report = process::isolate(1, limits, [&]() -> process::ItemWork {
         return [&](std::size_t) {
           std::vector<IndexPair> pairs;
-          solve(*all.entry, cases_[i], pairs);
+          std::vector<PartContact> contacts;
+          solve(*all.entry, cases_[i], pairs, measured ? &contacts : nullptr);
           std::copy_n(pairs.begin(), std::min(count, pairs.size()), fetched.span().begin());
+          std::copy_n(contacts.begin(), std::min(count, contacts.size()),
+                      fetched_contacts.span().begin());
         };
       });
       print_failures(all.entry->info.name, report.failures,
@@ -119,6 +130,9 @@ class ConcaveQueryRun {
       if (!report.failures.empty()) continue;
       all.pairs[i].assign(fetched.span().begin(), fetched.span().end());
       std::ranges::sort(all.pairs[i]);
+      if (measured) {
+        all.contacts[i].assign(fetched_contacts.span().begin(), fetched_contacts.span().end());
+      }
     }
   }
 
@@ -144,6 +158,29 @@ void write_pairs(const std::string& file, const std::vector<files::ConcaveCase>&
   csv.close();
 }
 
+// One row for each pair and each algorithm that has contacts.
+void write_contacts(const std::string& file, const std::vector<files::ConcaveCase>& cases,
+                    const std::vector<ConcaveAnswers>& all) {
+  files::CsvWriter csv(file, {"id", "algorithm", "a_part", "b_part", "status", "depth", "normal_x",
+                              "normal_y", "normal_z", "point_x", "point_y", "point_z"});
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const ConcaveAnswers& answers : all) {
+      for (const PartContact& contact : answers.contacts[i]) {
+        csv.field(cases[i].id)
+            .field(answers.entry->info.name)
+            .field(std::uint64_t{contact.parts.a})
+            .field(std::uint64_t{contact.parts.b})
+            .field(to_string(contact.status))
+            .field(contact.depth);
+        for (const double x : contact.normal) csv.field(x);
+        for (const double x : contact.point) csv.field(x);
+        csv.end_row();
+      }
+    }
+  }
+  csv.close();
+}
+
 }  // namespace
 
 void query_concave(const ConcaveQuery& query, const std::vector<files::ConcaveCase>& cases) {
@@ -152,6 +189,7 @@ void query_concave(const ConcaveQuery& query, const std::vector<files::ConcaveCa
   const ConcaveQueryRun run(query, cases);
   files::check_output(query.out);
   if (!query.pairs.empty()) files::check_output(query.pairs);
+  if (!query.contacts.empty()) files::check_output(query.contacts);
   std::vector<ConcaveAnswers> all;
   all.reserve(entries.size());
   for (const ConcaveEntry* entry : entries) all.push_back(run.ask(*entry));
@@ -181,6 +219,7 @@ void query_concave(const ConcaveQuery& query, const std::vector<files::ConcaveCa
   }
   csv.close();
   if (!query.pairs.empty()) write_pairs(query.pairs, cases, all);
+  if (!query.contacts.empty()) write_contacts(query.contacts, cases, all);
   summary.print();
 }
 

@@ -17,6 +17,7 @@ struct ConcaveQuery {
   double time_limit = 5;   // seconds a query
   std::string out;         // the CSV file of answers
   std::string pairs;       // the CSV file of pairs of parts; none if empty
+  std::string contacts;    // the CSV file of their depths and normals; none if empty
 };
 
 // Asks concave phases about the cases, writes a row for each answer, and prints a summary. Throws

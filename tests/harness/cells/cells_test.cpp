@@ -127,6 +127,16 @@ TEST(Cells, OfMotion) {
   EXPECT_GT(missed, 0);
 }
 
+TEST(Cells, OfConvexBodiesAndMeshes) {
+  const TemporaryFolder folder;
+  const auto request =
+      request_of(folder,
+                 "kind = \"concave\"\nmeshes = \"torus-100\"\nqueries = 6\ntasks = \"contacts\"\n"
+                 "convex_meshes = \"terrain-100\"\nconvex = [\"box\", \"hull-32\"]\n");
+  ASSERT_EQ(request.cells.size(), 10U);
+  expect_sound(run(request, folder.path() / "out"), request.cells.size());
+}
+
 TEST(Cells, AFinishedRunIsNotBegunAgain) {
   const TemporaryFolder folder;
   const auto request =

@@ -73,6 +73,19 @@ TEST_F(ConcaveQueryCommand, Contacts) {
   EXPECT_EQ(pairs[8], (std::vector<std::string>{"compound", "exact", "1", "0"}));
 }
 
+TEST_F(ConcaveQueryCommand, ContactsWithDepths) {
+  const Ran ran = run("--narrow fused,exact --task contacts --contacts " +
+                      (folder.path() / "contacts.csv").string());
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  // The oracle has none; a ball touches the second of two boxes.
+  const auto contacts = rows(
+      {"id", "algorithm", "a_part", "b_part", "status", "depth", "normal_z", "point_x", "point_z"},
+      "contacts.csv");
+  ASSERT_EQ(contacts.size(), 3u);
+  EXPECT_EQ(contacts[2],
+            (std::vector<std::string>{"compound", "fused", "1", "0", "ok", "0", "1", "2", "1"}));
+}
+
 TEST_F(ConcaveQueryCommand, EveryMidPhaseAndAlgorithm) {
   for (const MidPhaseEntry& mid : mid_phases()) {
     const Ran ran = run("--narrow all --task intersect --mid " + mid.info.name);
@@ -124,6 +137,8 @@ TEST_F(ConcaveQueryCommand, Faults) {
               HasSubstr("no narrow phase is called 'x'"));
   EXPECT_THAT(fault("--narrow fused --task intersect --pairs p.csv"),
               HasSubstr("--pairs was given"));
+  EXPECT_THAT(fault("--narrow fused --task distance --contacts c.csv"),
+              HasSubstr("--contacts was given"));
 }
 
 }  // namespace

@@ -1,0 +1,108 @@
+// The search of one tree, and the choice of the instruction level.
+//
+// The slack is that of the simultaneous descent (wide_descent.cpp), with the sum of all lengths in
+// place of the greatest coordinate. A root of a sum of three squares is off by less than 8 parts of
+// 2^24, which the factor `certain` takes away. Squares above 3e38 are infinite: what is further than
+// 1e19 then is dropped only if the radius is less.
+#include "algorithms/kernels/bvh/wide_search.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "algorithms/kernels/simd/vector.h"
+
+// A node has eight lanes, which is what the second level has.
+#if !defined(TOUCHSTONE_TWO_LEVELS)
+#define TOUCHSTONE_TWO_LEVELS
+#define TOUCHSTONE_SEARCH_HAS_TWO_LEVELS
+#endif
+
+namespace touchstone {
+namespace {
+
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/wide_search.inl"
+#include "algorithms/kernels/simd/foreach_target.inl"
+
+double norm(const Mat3d& m) { return m.cwiseAbs().rowwise().sum().maxCoeff(); }
+
+// The greatest magnitude of a finite coordinate.
+double magnitude(const Vec3d& low, const Vec3d& high) {
+  double greatest = 0;
+  for (int k = 0; k < 3; ++k) {
+    for (const double x : {low[k], high[k]}) {
+      if (std::isfinite(x)) greatest = std::max(greatest, std::abs(x));
+    }
+  }
+  return greatest;
+}
+
+// The centre of a boundless side is 0, and its half extent infinite.
+SearchBox::Extent extent(const Vec3d& centre, const Vec3d& half, double slack) {
+  SearchBox::Extent made;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<int>(k);
+    const bool bounded = std::isfinite(centre[axis]) && std::isfinite(half[axis]);
+    made.centre[k] = bounded ? static_cast<float>(centre[axis]) : 0;
+    made.half[k] = bounded ? round_up(half[axis] + slack) : std::numeric_limits<float>::infinity();
+  }
+  return made;
+}
+
+}  // namespace
+
+SearchBox search_box(const Vec3d& low, const Vec3d& high, double radius, const Pose& map,
+                     double error, double reach) {
+  const Mat3d& turn = map.rotation;
+  const Mat3d back = turn.inverse();
+  const bool has_inverse = norm(back * turn - Mat3d::Identity()) <= 1e-9;
+  const double norm_back = has_inverse ? norm(back) : 0;
+  const double all = (1 + norm(turn)) * (1 + norm_back) *
+                     (reach + magnitude(low, high) + map.translation.cwiseAbs().sum());
+  const double slack = 256 * 0x1p-24 * all + 8 * error + std::numeric_limits<float>::min();
+  SearchBox box;
+  const Vec3d centre = low / 2 + high / 2, half = high / 2 - low / 2;
+  box.own = extent(centre, half, slack);
+  const Vec3d unknown = Vec3d::Constant(std::numeric_limits<double>::infinity());
+  box.seen = has_inverse ? extent(back * (centre - map.translation), back.cwiseAbs() * half, slack)
+                         : extent(unknown, unknown, slack);
+  for (int row = 0; row < 3; ++row) {
+    for (int k = 0; k < 3; ++k) {
+      box.view.turn[row][k] = static_cast<float>(turn(row, k));
+      box.view.spread[row][k] = std::abs(box.view.turn[row][k]);
+    }
+    box.view.offset[row] = static_cast<float>(map.translation[row]);
+  }
+  box.view.slack = 0;  // the box has it
+  box.radius = round_up(radius);
+  // A ball becomes an ellipsoid; the norm bounds the root of the greatest eigenvalue.
+  box.seen_radius =
+      has_inverse ? round_up(radius * std::sqrt(norm(back.transpose() * back)) * (1 + 1e-6)) : 0;
+  return box;
+}
+
+bool WideSearch::run(const WideBvh& tree, const SearchBox& box, Visit visit, void* context) {
+  if (tree.nodes.empty()) return true;
+  const auto near = isa() == Isa::baseline ? baseline::near_boxes : avx2::near_boxes;
+  open_.assign(1, 0);
+  while (!open_.empty()) {
+    const WideNode& node = tree.nodes[open_.back()];
+    open_.pop_back();
+    for (unsigned bits = near(node, box); bits != 0; bits &= bits - 1) {
+      const std::int32_t child = node.child[static_cast<std::size_t>(std::countr_zero(bits))];
+      if (!WideNode::is_leaf(child)) {
+        open_.push_back(static_cast<std::uint32_t>(child));
+      } else if (!visit(context, WideNode::leaf(child))) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace touchstone
+
+#if defined(TOUCHSTONE_SEARCH_HAS_TWO_LEVELS)
+#undef TOUCHSTONE_TWO_LEVELS
+#undef TOUCHSTONE_SEARCH_HAS_TWO_LEVELS
+#endif
