@@ -124,6 +124,10 @@ class Auto final : public BroadPhase {
     return status;
   }
 
+  Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) override {
+    return active_->find_pairs_of(bodies, sink);
+  }
+
   Status find_changes(PairSink& began, PairSink& ended) override {
     const Status status = active_->find_changes(began, ended);
     is_told_ = true;

@@ -79,6 +79,8 @@ class CgalBoxIntersection final : public PeerBroadPhase {
     return Status::ok;
   }
 
+  void prepare(std::size_t slots) override { boxes_.reserve(slots); }
+
   void convert(std::span<const Aabb> boxes) override { to_cgal(boxes, converted_); }
 
   BroadPhaseWork work() const override { return {.candidates = candidates_}; }

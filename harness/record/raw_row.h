@@ -95,6 +95,7 @@ struct RawRow {
   std::int64_t batch = -1;  // pairs of a call, if that is not the usual number
   // True if the narrow phase's depth is that of some translation that separates, by design.
   std::optional<bool> depth_bound;
+  double worst_frame = Outcome::none;  // seconds
 
   void take(const BroadPhaseWork& work);
 
@@ -239,6 +240,9 @@ void columns(Row& row, Visit visit) {
   visit("depth_bound", newer(row.depth_bound),
         "1 for a narrow phase whose depth is an upper bound by design: that of some translation "
         "that separates the bodies, in general not the least.");
+  visit("worst_frame", newer(row.worst_frame),
+        "Samples of a broad phase: seconds of the window's longest frame, its build or update and "
+        "find_pairs together; in the sample's last row.");
 }
 
 // Returns a narrow phase with its settings, as the tables name it: "gjk double", "gjk double
