@@ -4,10 +4,10 @@
 //          2. In each update count the bodies that moved, came or went, and take the pairs of the
 //             frame before.
 //          3. Few changes want the dynamic BVH. Otherwise more than 400,000 bodies want the packed
-//             R-tree, and fewer the Verlet list, after some frames if they have many pairs, since
-//             its list must pay for itself.
+//             R-tree, as do those that have many pairs, but for 4,000 to 50,000; the rest want the
+//             Verlet list.
 //          4. When another one has been wanted for some frames in a row, build it with this frame's
-//             boxes, and drop the one before.
+//             boxes, and drop the one before. The first frame after a build suffices.
 // Departs: it decides by counts and not by times, so that the order of the pairs does not depend on
 //          the machine or its load. Each change of mind doubles the number of frames that the next
 //          one takes, until the next build. Thresholds are measured.
@@ -55,7 +55,6 @@ class Choice {
   bool update(const FrameChange& change, std::size_t pairs) {
     bodies_ += change.inserted.size();
     bodies_ -= change.removed.size();
-    ++frames_;
     const Kind wanted =
         wants(change.moved.size() + change.inserted.size() + change.removed.size(), pairs);
     wanted_for_ = wanted == kind_ ? 0 : wanted_for_ + 1;
@@ -68,7 +67,7 @@ class Choice {
 
  private:
   static constexpr std::size_t many_bodies = 400'000;
-  static constexpr int frames_of_a_list = 8, most_patience = 64;
+  static constexpr int most_patience = 64;
 
   Kind wants(std::size_t changes, std::size_t pairs) const {
     // What is chosen is kept up to twice the threshold.
@@ -76,15 +75,14 @@ class Choice {
     if (32 * changes <= kept * bodies_) return Kind::dynamic_bvh;
     if (bodies_ > many_bodies) return Kind::packed_rtree;
     const bool has_few_pairs = 2 * pairs < 3 * bodies_;
-    const bool is_listed = kind_ == Kind::verlet_list || frames_ > frames_of_a_list;
-    return has_few_pairs || is_listed ? Kind::verlet_list : Kind::packed_rtree;
+    const bool suits_long_lists = bodies_ > 4'000 && bodies_ <= 50'000;
+    return has_few_pairs || suits_long_lists ? Kind::verlet_list : Kind::packed_rtree;
   }
 
   Kind kind_ = Kind::packed_rtree;
   std::size_t bodies_ = 0;
-  int frames_ = 0;      // since the build
   int wanted_for_ = 0;  // frames in a row in which another kind was wanted
-  int patience_ = 2;    // frames
+  int patience_ = 1;    // frames
 };
 
 class Auto final : public BroadPhase {
@@ -115,6 +113,8 @@ class Auto final : public BroadPhase {
     }
     active_ = make(choice_.kind(), executor_);
     active_->build(change.boxes);
+    // The dynamic BVH keeps the pairs that it finds from its first update on.
+    if (choice_.kind() == Kind::dynamic_bvh) active_->update({change.boxes, {}, {}, {}});
     if (is_told_) active_->find_changes(began, ended);
   }
 
