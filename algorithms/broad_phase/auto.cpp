@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "algorithms/broad_phase.h"
@@ -44,6 +45,12 @@ std::unique_ptr<BroadPhase> make(Kind kind, Executor& executor) {
   }
 }
 
+// What was asked and found in the last frame.
+struct Answers {
+  std::optional<std::size_t> pairs;  // their number; empty: not known
+  bool are_changes = false;          // find_changes has been called
+};
+
 // The counts of the frames, and what they speak for.
 class Choice {
  public:
@@ -52,11 +59,11 @@ class Choice {
   Kind kind() const { return kind_; }
 
   // Returns true if another kind is to take over with this frame.
-  bool update(const FrameChange& change, std::size_t pairs) {
+  bool update(const FrameChange& change, const Answers& answers) {
     bodies_ += change.inserted.size();
     bodies_ -= change.removed.size();
     const Kind wanted =
-        wants(change.moved.size() + change.inserted.size() + change.removed.size(), pairs);
+        wants(change.moved.size() + change.inserted.size() + change.removed.size(), answers);
     wanted_for_ = wanted == kind_ ? 0 : wanted_for_ + 1;
     if (wanted_for_ < patience_) return false;
     kind_ = wanted;
@@ -69,12 +76,14 @@ class Choice {
   static constexpr std::size_t many_bodies = 400'000;
   static constexpr int most_patience = 64;
 
-  Kind wants(std::size_t changes, std::size_t pairs) const {
-    // What is chosen is kept up to twice the threshold.
+  Kind wants(std::size_t changes, const Answers& answers) const {
+    // What is chosen is kept up to twice the threshold. The dynamic BVH alone tells changes without
+    // all pairs.
     const std::size_t kept = kind_ == Kind::dynamic_bvh ? 2 : 1;
-    if (32 * changes <= kept * bodies_) return Kind::dynamic_bvh;
+    const std::size_t few = answers.are_changes ? 8 : 32;
+    if (few * changes <= kept * bodies_) return Kind::dynamic_bvh;
     if (bodies_ > many_bodies) return Kind::packed_rtree;
-    const bool has_few_pairs = 2 * pairs < 3 * bodies_;
+    const bool has_few_pairs = answers.pairs && 2 * *answers.pairs < 3 * bodies_;
     const bool suits_long_lists = bodies_ > 4'000 && bodies_ <= 50'000;
     return has_few_pairs || suits_long_lists ? Kind::verlet_list : Kind::packed_rtree;
   }
@@ -101,7 +110,7 @@ class Auto final : public BroadPhase {
   }
 
   void update(const FrameChange& change) override {
-    const bool is_replaced = choice_.update(change, pairs_);
+    const bool is_replaced = choice_.update(change, {pairs_, is_told_});
     if (!is_replaced || is_told_) active_->update(change);
     if (!is_replaced) return;
     // The one before tells what has changed up to now, and the next one begins from there.
@@ -160,7 +169,7 @@ class Auto final : public BroadPhase {
   Executor& executor_;
   Choice choice_;
   std::unique_ptr<BroadPhase> active_;
-  std::size_t pairs_ = 0;  // number in the last frame that was asked about
+  std::optional<std::size_t> pairs_;  // number in the last frame that was asked about
   // Changes have been asked for; the number of the pairs then, and the changes since then that
   // the last one told when it was replaced.
   bool is_told_ = false;

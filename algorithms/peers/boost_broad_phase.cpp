@@ -11,6 +11,8 @@
 //          tree worse, until a quarter as many have changed as there are bodies; then the tree is
 //          loaded anew. (If few bodies move, a frame takes 0.8 to 0.93 of the time of one that
 //          loads the tree; limits from a tenth to all of the bodies differ by a few hundredths.)
+//          It is compiled without vector instructions beyond SSE2: with AVX2 or AVX-512, as our
+//          kernels use them, it is no faster.
 // Fails:   every pair is found twice, and every box finds itself.
 // Cost:    O(n log n) to load, O(log n) to insert or remove; a query O(log n + its pairs) if boxes
 //          are small.

@@ -64,7 +64,7 @@ TEST_P(PairsOf, SomeBodiesAreThoseOfTheTruth) {
   for (const int width : {1, 2}) {
     Executor executor(width);
     const auto algorithm = GetParam()->make(executor);
-    UnrestfulBodies bodies(500);
+    UnrestfulBodies bodies(400);
     PairSink sink;
     std::size_t of_fresh = 0, left_out = 0, moved_frames = 0;
     std::uint32_t step = 0;
@@ -78,7 +78,7 @@ TEST_P(PairsOf, SomeBodiesAreThoseOfTheTruth) {
     };
     for (const Unrest& unrest : unrests) {
       SCOPED_TRACE(unrest.name);
-      for (int frame = 0; frame < drawn(16, 5); ++frame, ++step) {
+      for (int frame = 0; frame < drawn(8, 4); ++frame, ++step) {
         const FrameChange change = bodies.next(unrest);
         Ids fresh, some, all(change.boxes.size());
         std::ranges::merge(change.moved, change.inserted, std::back_inserter(fresh));
@@ -96,9 +96,9 @@ TEST_P(PairsOf, SomeBodiesAreThoseOfTheTruth) {
         moved_frames += fresh.empty() ? 0 : 1;
       }
     }
-    EXPECT_GT(moved_frames, 20u / one_in);
-    EXPECT_GT(of_fresh, 3'000u / one_in);
-    EXPECT_GT(left_out, 3'000u / one_in);
+    EXPECT_GT(moved_frames, 10u);
+    EXPECT_GT(of_fresh, 1'000u / one_in);
+    EXPECT_GT(left_out, 1'000u / one_in);
   }
 }
 
@@ -113,7 +113,7 @@ TEST_P(PairsOf, ChangesOfSomeBodiesAreThoseOfTheTruth) {
   algorithm->build(bodies.boxes());
   for (const Unrest& unrest : unrests) {
     SCOPED_TRACE(unrest.name);
-    for (int frame = 0; frame < drawn(12, 4); ++frame, ++step) {
+    for (int frame = 0; frame < drawn(8, 4); ++frame, ++step) {
       algorithm->update(bodies.next(unrest));
       Ids awake;
       for (std::uint32_t id = 0; id < bodies.boxes().size(); ++id) {
@@ -135,8 +135,8 @@ TEST_P(PairsOf, ChangesOfSomeBodiesAreThoseOfTheTruth) {
       told_all = truth;
     }
   }
-  EXPECT_GT(all_began, 1'000u / one_in);
-  EXPECT_GT(all_ended, 1'000u / one_in);
+  EXPECT_GT(all_began, 500u / one_in);
+  EXPECT_GT(all_ended, 500u / one_in);
 }
 
 // After each discard there is a build; changes are told over it. A hint may be wrong.
