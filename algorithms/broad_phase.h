@@ -2,6 +2,7 @@
 // include this.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "algorithms/algorithm_info.h"
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/aabb.h"
+#include "algorithms/core/body_marks.h"
 #include "algorithms/core/executor/executor.h"
 #include "algorithms/core/pair_history.h"
 #include "algorithms/core/pair_sink.h"
@@ -31,7 +33,7 @@ struct FrameChange {
 
 // A broad phase is called as build, find_pairs, then (update, find_pairs) for each further frame;
 // `build` may come again at any time and starts from scratch. The harness times the three
-// separately. find_changes may be called where find_pairs is.
+// separately. find_changes, find_pairs_of and find_changes_of may be called where find_pairs is.
 //
 // The boxes given to build or update stay alive and unchanged until the next build or update. Boxes
 // are finite, with min <= max, or empty: an empty slot has no body and is skipped. There may be no
@@ -64,6 +66,40 @@ class BroadPhase {
     return status;
   }
 
+  // Writes the pairs of find_pairs of which one body, or both, is among these; the ids ascend, are
+  // below the number of boxes, and may be of empty slots. Of the bodies that moved or came these
+  // are the pairs with a box that is new. Of all that are neither static nor asleep they are what an
+  // engine wants, to whom two bodies at rest are no pair. The conditions of find_pairs hold.
+  //
+  // A broad phase that does not override it finds all pairs, and drops the others.
+  virtual Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) {
+    const Status status = find_pairs(sink);
+    if (status == Status::ok) {
+      chosen_.set(bodies);
+      chosen_.keep_pairs_of_marked(sink);
+    }
+    return status;
+  }
+
+  // Writes what find_changes does, of the pairs of find_pairs_of. A pair also begins when one of
+  // its bodies joins the list, as one that wakes up, and ends when none is on it any more. What it
+  // told before is apart from what find_changes told.
+  Status find_changes_of(std::span<const std::uint32_t> bodies, PairSink& began, PairSink& ended) {
+    began.start(0);
+    ended.start(0);
+    const Status status = find_pairs_of(bodies, found_);
+    if (status == Status::ok) told_of_.compare(found_, began, ended);
+    return status;
+  }
+
+  // Gives up what was built: only prepare or build may follow. A library frees it here; ours keep
+  // their memory for the next build. The harness calls both before each build that it times, and
+  // outside of the clock, so that a frame is not charged with the end of the one before.
+  virtual void discard() {}
+  // Makes what a build of so many boxes needs and does not depend on the boxes: a library's objects
+  // and memory. It is a hint: build does without it.
+  virtual void prepare(std::size_t /*slots*/) {}
+
   // Returns the work of find_pairs on the last build or update. It repeats the search to count, so
   // that find_pairs itself does not have to; the harness calls it outside of the timed region.
   virtual BroadPhaseWork work() const { return {}; }
@@ -75,8 +111,10 @@ class BroadPhase {
   virtual std::vector<StructureBox> structure() const { return {}; }
 
  private:
-  PairSink found_;    // pairs of this frame, for find_changes
-  PairHistory told_;  // pairs of the last call of find_changes
+  PairSink found_;       // pairs of this frame, for the changes
+  PairHistory told_;     // pairs of the last call of find_changes
+  PairHistory told_of_;  // pairs of the last call of find_changes_of
+  BodyMarks chosen_;     // scratch of find_pairs_of
 };
 
 // A broad phase of a library that has its own types for boxes.

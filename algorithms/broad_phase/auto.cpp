@@ -4,10 +4,10 @@
 //          2. In each update count the bodies that moved, came or went, and take the pairs of the
 //             frame before.
 //          3. Few changes want the dynamic BVH. Otherwise more than 400,000 bodies want the packed
-//             R-tree, and fewer the Verlet list, after some frames if they have many pairs, since
-//             its list must pay for itself.
+//             R-tree, as do those that have many pairs, but for 4,000 to 50,000; the rest want the
+//             Verlet list.
 //          4. When another one has been wanted for some frames in a row, build it with this frame's
-//             boxes, and drop the one before.
+//             boxes, and drop the one before. The first frame after a build suffices.
 // Departs: it decides by counts and not by times, so that the order of the pairs does not depend on
 //          the machine or its load. Each change of mind doubles the number of frames that the next
 //          one takes, until the next build. Thresholds are measured.
@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "algorithms/broad_phase.h"
@@ -44,6 +45,12 @@ std::unique_ptr<BroadPhase> make(Kind kind, Executor& executor) {
   }
 }
 
+// What was asked and found in the last frame.
+struct Answers {
+  std::optional<std::size_t> pairs;  // their number; empty: not known
+  bool are_changes = false;          // find_changes has been called
+};
+
 // The counts of the frames, and what they speak for.
 class Choice {
  public:
@@ -52,12 +59,11 @@ class Choice {
   Kind kind() const { return kind_; }
 
   // Returns true if another kind is to take over with this frame.
-  bool update(const FrameChange& change, std::size_t pairs) {
+  bool update(const FrameChange& change, const Answers& answers) {
     bodies_ += change.inserted.size();
     bodies_ -= change.removed.size();
-    ++frames_;
     const Kind wanted =
-        wants(change.moved.size() + change.inserted.size() + change.removed.size(), pairs);
+        wants(change.moved.size() + change.inserted.size() + change.removed.size(), answers);
     wanted_for_ = wanted == kind_ ? 0 : wanted_for_ + 1;
     if (wanted_for_ < patience_) return false;
     kind_ = wanted;
@@ -68,23 +74,24 @@ class Choice {
 
  private:
   static constexpr std::size_t many_bodies = 400'000;
-  static constexpr int frames_of_a_list = 8, most_patience = 64;
+  static constexpr int most_patience = 64;
 
-  Kind wants(std::size_t changes, std::size_t pairs) const {
-    // What is chosen is kept up to twice the threshold.
+  Kind wants(std::size_t changes, const Answers& answers) const {
+    // What is chosen is kept up to twice the threshold. The dynamic BVH alone tells changes without
+    // all pairs.
     const std::size_t kept = kind_ == Kind::dynamic_bvh ? 2 : 1;
-    if (32 * changes <= kept * bodies_) return Kind::dynamic_bvh;
+    const std::size_t few = answers.are_changes ? 8 : 32;
+    if (few * changes <= kept * bodies_) return Kind::dynamic_bvh;
     if (bodies_ > many_bodies) return Kind::packed_rtree;
-    const bool has_few_pairs = 2 * pairs < 3 * bodies_;
-    const bool is_listed = kind_ == Kind::verlet_list || frames_ > frames_of_a_list;
-    return has_few_pairs || is_listed ? Kind::verlet_list : Kind::packed_rtree;
+    const bool has_few_pairs = answers.pairs && 2 * *answers.pairs < 3 * bodies_;
+    const bool suits_long_lists = bodies_ > 4'000 && bodies_ <= 50'000;
+    return has_few_pairs || suits_long_lists ? Kind::verlet_list : Kind::packed_rtree;
   }
 
   Kind kind_ = Kind::packed_rtree;
   std::size_t bodies_ = 0;
-  int frames_ = 0;      // since the build
   int wanted_for_ = 0;  // frames in a row in which another kind was wanted
-  int patience_ = 2;    // frames
+  int patience_ = 1;    // frames
 };
 
 class Auto final : public BroadPhase {
@@ -103,7 +110,7 @@ class Auto final : public BroadPhase {
   }
 
   void update(const FrameChange& change) override {
-    const bool is_replaced = choice_.update(change, pairs_);
+    const bool is_replaced = choice_.update(change, {pairs_, is_told_});
     if (!is_replaced || is_told_) active_->update(change);
     if (!is_replaced) return;
     // The one before tells what has changed up to now, and the next one begins from there.
@@ -115,6 +122,8 @@ class Auto final : public BroadPhase {
     }
     active_ = make(choice_.kind(), executor_);
     active_->build(change.boxes);
+    // The dynamic BVH keeps the pairs that it finds from its first update on.
+    if (choice_.kind() == Kind::dynamic_bvh) active_->update({change.boxes, {}, {}, {}});
     if (is_told_) active_->find_changes(began, ended);
   }
 
@@ -122,6 +131,10 @@ class Auto final : public BroadPhase {
     const Status status = active_->find_pairs(sink);
     pairs_ = sink.size();
     return status;
+  }
+
+  Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) override {
+    return active_->find_pairs_of(bodies, sink);
   }
 
   Status find_changes(PairSink& began, PairSink& ended) override {
@@ -156,7 +169,7 @@ class Auto final : public BroadPhase {
   Executor& executor_;
   Choice choice_;
   std::unique_ptr<BroadPhase> active_;
-  std::size_t pairs_ = 0;  // number in the last frame that was asked about
+  std::optional<std::size_t> pairs_;  // number in the last frame that was asked about
   // Changes have been asked for; the number of the pairs then, and the changes since then that
   // the last one told when it was replaced.
   bool is_told_ = false;

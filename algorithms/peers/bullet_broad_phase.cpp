@@ -8,7 +8,8 @@
 //          world), so the adapter tests each cached pair against the given boxes, which have the
 //          same bits in Bullet's floats. The sweep needs a world and a capacity: both are twice as
 //          large as necessary, and the adapter builds a new sweep when a box leaves the world or
-//          the capacity is exhausted.
+//          the capacity is exhausted. The changes are told from Bullet's cache: each cached pair
+//          has a mark if it was told, and a marked pair that Bullet removes is kept aside.
 // Fails:   removing a body scans all cached pairs, so churn is quadratic. The sweep moves each new
 //          end point through the whole axis, so its build is quadratic. The order of the tree's
 //          pairs depends on addresses (its balancing compares pointers).
@@ -18,6 +19,7 @@
 #include <cstdint>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/core/pair_history.h"
 #include "algorithms/peers/world.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
@@ -38,6 +40,41 @@ std::uint32_t to_id(const btBroadphaseProxy* proxy) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
 }
 
+// Bullet's cache, with marks of the pairs that find_changes has told. Marked pairs that leave it are
+// lost: they have ended, if they do not come back.
+class ToldPairCache final : public btHashedOverlappingPairCache {
+ public:
+  // `lost` gets the lost pairs, and outlives the cache; null: there are no marks.
+  explicit ToldPairCache(std::vector<IndexPair>* lost) : lost_(lost) {}
+
+  void keep_lost(std::vector<IndexPair>& lost) { lost_ = &lost; }
+  static bool is_marked(const btBroadphasePair& pair) { return pair.m_internalTmpValue != 0; }
+  static void mark(btBroadphasePair& pair, bool value) { pair.m_internalTmpValue = value ? 1 : 0; }
+
+  void* removeOverlappingPair(btBroadphaseProxy* first, btBroadphaseProxy* second,
+                              btDispatcher* dispatcher) override {
+    if (lost_ != nullptr) {
+      const btBroadphasePair* const pair = findPair(first, second);
+      if (pair != nullptr) lose(*pair);
+    }
+    return btHashedOverlappingPairCache::removeOverlappingPair(first, second, dispatcher);
+  }
+  void lose_all() {
+    if (lost_ == nullptr) return;
+    const btBroadphasePairArray& pairs = getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i) lose(pairs[i]);
+  }
+
+ private:
+  void lose(const btBroadphasePair& pair) {
+    if (!is_marked(pair)) return;
+    const std::uint32_t a = to_id(pair.m_pProxy0), b = to_id(pair.m_pProxy1);
+    lost_->push_back({std::min(a, b), std::max(a, b)});
+  }
+
+  std::vector<IndexPair>* lost_;
+};
+
 class Tree {
  public:
   Tree() {
@@ -50,17 +87,14 @@ class Tree {
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
 
-  btBroadphaseInterface& start(std::span<const Aabb>) {
-    clear();
-    cache_ = std::make_unique<btHashedOverlappingPairCache>();
-    broad_ = std::make_unique<btDbvtBroadphase>(cache_.get());
+  btBroadphaseInterface& start(std::span<const Aabb>, btOverlappingPairCache& cache) {
+    broad_ = std::make_unique<btDbvtBroadphase>(&cache);
     broad_->m_deferedcollide = true;
     broad_->m_cupdates = 100;
     return *broad_;
   }
   bool takes(const FrameChange&) const { return true; }
 
- private:
   // Bullet's destructor leaks the proxies, and destroyProxy scans the pairs for each of them. An
   // empty pair cache makes destroying them cheap.
   void clear() {
@@ -77,13 +111,13 @@ class Tree {
     broad_.reset();
   }
 
-  std::unique_ptr<btHashedOverlappingPairCache> cache_;
+ private:
   std::unique_ptr<btDbvtBroadphase> broad_;
 };
 
 class AxisSweep {
  public:
-  btBroadphaseInterface& start(std::span<const Aabb> boxes) {
+  btBroadphaseInterface& start(std::span<const Aabb> boxes, btOverlappingPairCache& cache) {
     world_ = World::around(boxes);
     used_ = count(boxes);
     capacity_ = std::max(2 * used_, std::size_t{64});
@@ -98,9 +132,10 @@ class AxisSweep {
     }
     constexpr bool without_ray_accelerator = true;
     broad_ = std::make_unique<bt32BitAxisSweep3>(low, high, static_cast<unsigned>(capacity_),
-                                                 nullptr, without_ray_accelerator);
+                                                 &cache, without_ray_accelerator);
     return *broad_;
   }
+  void clear() { broad_.reset(); }
 
   bool takes(const FrameChange& change) {
     used_ += change.inserted.size();
@@ -126,8 +161,10 @@ template <class Structure>
 class BulletBroadPhase final : public PeerBroadPhase {
  public:
   void build(std::span<const Aabb> boxes) override {
+    discard();
     boxes_ = boxes;
-    broad_ = &structure_.start(boxes);
+    cache_ = std::make_unique<ToldPairCache>(is_told_ ? &lost_ : nullptr);
+    broad_ = &structure_.start(boxes, *cache_);
     proxies_.assign(boxes.size(), nullptr);
     for (std::uint32_t id = 0; id < boxes.size(); ++id) {
       if (!boxes[id].is_empty()) insert(id);
@@ -152,8 +189,7 @@ class BulletBroadPhase final : public PeerBroadPhase {
     sink.start(1);
     PairBuffer& out = sink.chunk(0);
     broad_->calculateOverlappingPairs(nullptr);
-    const btBroadphasePairArray& pairs =
-        broad_->getOverlappingPairCache()->getOverlappingPairArray();
+    const btBroadphasePairArray& pairs = cache_->getOverlappingPairArray();
     for (int i = 0; i < pairs.size(); ++i) {
       const std::uint32_t a = to_id(pairs[i].m_pProxy0);
       const std::uint32_t b = to_id(pairs[i].m_pProxy1);
@@ -162,6 +198,34 @@ class BulletBroadPhase final : public PeerBroadPhase {
     candidates_ = pairs.size();
     return Status::ok;
   }
+
+  // A pair that Bullet removed and took in again is in both lists, and has not changed.
+  Status find_changes(PairSink& began, PairSink& ended) override {
+    is_told_ = true;
+    cache_->keep_lost(lost_);
+    broad_->calculateOverlappingPairs(nullptr);
+    btBroadphasePairArray& pairs = cache_->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i) {
+      const std::uint32_t a = to_id(pairs[i].m_pProxy0);
+      const std::uint32_t b = to_id(pairs[i].m_pProxy1);
+      const bool overlaps = overlap(boxes_[a], boxes_[b]);
+      if (overlaps == ToldPairCache::is_marked(pairs[i])) continue;
+      ToldPairCache::mark(pairs[i], overlaps);
+      (overlaps ? came_ : lost_).push_back({std::min(a, b), std::max(a, b)});
+    }
+    write_difference(came_, lost_, began, ended);
+    came_.clear();
+    lost_.clear();
+    return Status::ok;
+  }
+
+  void discard() override {
+    if (cache_) cache_->lose_all();
+    structure_.clear();
+    broad_ = nullptr;
+    cache_.reset();
+  }
+  void prepare(std::size_t slots) override { proxies_.reserve(slots); }
 
   void convert(std::span<const Aabb> boxes) override {
     converted_.clear();
@@ -180,6 +244,10 @@ class BulletBroadPhase final : public PeerBroadPhase {
                                        to_client(id), everything, everything, nullptr);
   }
 
+  bool is_told_ = false;                // changes have been asked for
+  std::vector<IndexPair> lost_, came_;  // lost pairs; scratch of find_changes
+  // The structure's end passes through the cache, which reads the ids of its proxies.
+  std::unique_ptr<ToldPairCache> cache_;
   Structure structure_;
   btBroadphaseInterface* broad_ = nullptr;
   std::span<const Aabb> boxes_;

@@ -10,6 +10,8 @@
 //          greatest float, with which it marks the ends of the axis; the adapter passes the float
 //          before it instead, and in a frame with such a box it tests each pair against the given
 //          boxes.
+//          It is compiled without vector instructions beyond SSE2: with AVX2 or AVX-512, as our
+//          kernels use them, it is no faster.
 // Fails:   boxes that begin at the same coordinate cannot be split there and are scanned: quadratic
 //          if most do so on the axes y and z.
 // Cost:    O(n log^3 n + k) time, O(n) memory.
@@ -78,6 +80,8 @@ class CgalBoxIntersection final : public PeerBroadPhase {
         cutoff);
     return Status::ok;
   }
+
+  void prepare(std::size_t slots) override { boxes_.reserve(slots); }
 
   void convert(std::span<const Aabb> boxes) override { to_cgal(boxes, converted_); }
 

@@ -138,6 +138,19 @@ class EmbreeBroadPhase final : public PeerBroadPhase {
     }
   }
 
+  // Embree frees the tree when the scene without its geometry is committed.
+  void discard() override {
+    if (geometry_ == nullptr) return;
+    rtcDetachGeometry(scene_, 0);
+    geometry_ = nullptr;
+    rtcCommitScene(scene_);
+  }
+  void prepare(std::size_t slots) override {
+    primitives_.reserve(slots);
+    ids_.reserve(slots);
+    bounds_.reserve(std::max(slots, fewest));
+  }
+
   void convert(std::span<const Aabb> boxes) override {
     converted_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) converted_[i] = to_embree(boxes[i], scale_);

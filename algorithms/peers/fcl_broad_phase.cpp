@@ -28,6 +28,8 @@
 #include <algorithm>
 #include <new>
 
+#include <fcl/geometry/shape/sphere.h>
+
 #include "algorithms/peers/fcl_managers.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -85,6 +87,34 @@ class FclBroadPhase final : public PeerBroadPhase {
     return status_;
   }
 
+  // Asks a tree about each of these bodies; a pair of two of them counts at the smaller id.
+  Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) override {
+    if constexpr (!Rules::is_tree) {
+      return BroadPhase::find_pairs_of(bodies, sink);
+    } else {
+      sink.start(1);
+      if (status_ != Status::ok) return status_;
+      asked_.set(bodies);
+      Found found{boxes_, sink.chunk(0), &asked_};
+      guard([&] {
+        for (const std::uint32_t id : bodies) {
+          if (boxes_[id].is_empty()) continue;
+          probe_.set(id, boxes_[id]);
+          manager_->collide(&probe_, &found, &Found::add);
+        }
+      });
+      return status_;
+    }
+  }
+
+  void discard() override {
+    manager_.reset();
+    live_ = 0;
+  }
+  void prepare(std::size_t slots) override {
+    guard([&] { make_objects(slots); });
+  }
+
   void convert(std::span<const Aabb> boxes) override {
     converted_.clear();
     for (const Aabb& box : boxes) converted_.push_back(to_fcl(box));
@@ -97,6 +127,7 @@ class FclBroadPhase final : public PeerBroadPhase {
   struct Found {
     std::span<const Aabb> boxes;
     PairBuffer& out;
+    const BodyMarks* asked = nullptr;  // set if the second object is one of these bodies
     std::int64_t calls = 0;
 
     static bool add(Object* first, Object* second, void* data) {
@@ -104,8 +135,9 @@ class FclBroadPhase final : public PeerBroadPhase {
       ++found.calls;
       const std::uint32_t a = static_cast<const BoxObject*>(first)->id();
       const std::uint32_t b = static_cast<const BoxObject*>(second)->id();
-      if (overlap(found.boxes[a], found.boxes[b])) found.out.push(a, b);
       constexpr bool stop = false;
+      if (found.asked != nullptr && (a == b || (a < b && found.asked->has(a)))) return stop;
+      if (overlap(found.boxes[a], found.boxes[b])) found.out.push(a, b);
       return stop;
     }
   };
@@ -125,11 +157,7 @@ class FclBroadPhase final : public PeerBroadPhase {
   void make() {
     status_ = Status::ok;
     manager_.reset();
-    objects_.clear();
-    if (boxes_.size() > objects_.capacity()) {
-      objects_.reserve(std::max(boxes_.size(), 2 * objects_.capacity()));
-    }
-    extend();
+    make_objects(boxes_.size());
     batch_.clear();
     for (std::uint32_t id = 0; id < boxes_.size(); ++id) {
       if (boxes_[id].is_empty()) continue;
@@ -142,8 +170,17 @@ class FclBroadPhase final : public PeerBroadPhase {
     manager_->setup();
   }
 
+  // Makes an object for each slot; no manager holds any.
+  void make_objects(std::size_t slots) {
+    if (slots > objects_.capacity()) {
+      objects_.clear();
+      objects_.reserve(std::max(slots, 2 * objects_.capacity()));
+    }
+    extend(slots);
+  }
+
   void apply(const FrameChange& change) {
-    extend();
+    extend(boxes_.size());
     // Removal precedes the change of boxes: managers look for a body at its box.
     for (const std::uint32_t id : change.removed) manager_->unregisterObject(&objects_[id]);
     batch_.clear();
@@ -164,9 +201,9 @@ class FclBroadPhase final : public PeerBroadPhase {
     }
   }
 
-  // Makes one object for each slot, and moves none of those that exist.
-  void extend() {
-    while (objects_.size() < boxes_.size()) {
+  // Makes the objects that are missing, and moves none of those that exist.
+  void extend(std::size_t slots) {
+    while (objects_.size() < slots) {
       objects_.emplace_back(static_cast<std::uint32_t>(objects_.size()));
     }
   }
@@ -177,7 +214,9 @@ class FclBroadPhase final : public PeerBroadPhase {
   // pairs is that of the ids. The managers hold pointers: it is never reallocated under them.
   std::vector<BoxObject> objects_;
   std::unique_ptr<Manager> manager_;
-  std::vector<Object*> batch_;                // scratch
+  std::vector<Object*> batch_;                             // scratch
+  BoxObject probe_{0, std::make_shared<fcl::Sphered>(1)};  // object that a tree is asked about
+  BodyMarks asked_;                                        // scratch
   PairBuffer found_;                          // scratch of a manager that repeats pairs
   std::vector<fcl::AABB<double>> converted_;  // scratch
   std::size_t live_ = 0;
@@ -192,7 +231,7 @@ std::unique_ptr<BroadPhase> make(Executor&) {
 constexpr auto make_naive = make<Incremental<fcl::NaiveCollisionManager<double>>>;
 constexpr auto make_ssap = make<Incremental<fcl::SSaPCollisionManager<double>>>;
 constexpr auto make_sap = make<SortAndSweep>;
-constexpr auto make_tree = make<Incremental<fcl::DynamicAABBTreeCollisionManager<double>>>;
+constexpr auto make_tree = make<DynamicTree>;
 constexpr auto make_tree_array = make<DynamicTreeArray>;
 constexpr auto make_interval_tree = make<IntervalTree>;
 constexpr auto make_spatial_hash = make<SpatialHash>;

@@ -30,12 +30,18 @@ inline fcl::AABB<double> to_fcl(const Aabb& box) {
           fcl::Vector3d(box.max[0], box.max[1], box.max[2])};
 }
 
-// A body that consists of its box.
+// A body that consists of its box. FCL looks at the geometry of an object that a tree is asked about.
 class BoxObject final : public Object {
  public:
-  explicit BoxObject(std::uint32_t id) : Object(nullptr), id_(id) {}
+  explicit BoxObject(std::uint32_t id,
+                     const std::shared_ptr<fcl::CollisionGeometry<double>>& geometry = nullptr)
+      : Object(geometry), id_(id) {}
   std::uint32_t id() const { return id_; }
   void set(const Aabb& box) { aabb = to_fcl(box); }
+  void set(std::uint32_t id, const Aabb& box) {
+    id_ = id;
+    set(box);
+  }
 
  private:
   std::uint32_t id_;
@@ -47,14 +53,20 @@ class BoxObject final : public Object {
 template <class M>
 struct Incremental {
   static constexpr bool repeats = false;  // calls back with a pair more than once
+  static constexpr bool is_tree = false;  // is asked about single objects
   // A tree's update() of all takes less time than its query.
   static bool by_list(std::size_t, std::size_t) { return false; }
   std::unique_ptr<Manager> make(std::span<const Aabb>) { return std::make_unique<M>(); }
   bool takes(const FrameChange&, std::span<const BoxObject>) const { return true; }
 };
 
+struct DynamicTree : Incremental<fcl::DynamicAABBTreeCollisionManager<double>> {
+  static constexpr bool is_tree = true;
+};
+
 struct SortAndSweep {
   static constexpr bool repeats = true;
+  static constexpr bool is_tree = false;
   static bool by_list(std::size_t, std::size_t) { return true; }
   std::unique_ptr<Manager> make(std::span<const Aabb>) {
     return std::make_unique<fcl::SaPCollisionManager<double>>();
@@ -78,6 +90,7 @@ struct SortAndSweep {
 
 struct DynamicTreeArray {
   static constexpr bool repeats = false;
+  static constexpr bool is_tree = true;
   static bool by_list(std::size_t, std::size_t) { return false; }
   std::unique_ptr<Manager> make(std::span<const Aabb>) {
     auto manager = std::make_unique<fcl::DynamicAABBTreeCollisionManager_Array<double>>();
@@ -91,6 +104,7 @@ struct DynamicTreeArray {
 
 struct IntervalTree {
   static constexpr bool repeats = false;
+  static constexpr bool is_tree = false;
   static bool by_list(std::size_t, std::size_t) { return false; }
   std::unique_ptr<Manager> make(std::span<const Aabb>) {
     return std::make_unique<fcl::IntervalTreeCollisionManager<double>>();
@@ -100,6 +114,7 @@ struct IntervalTree {
 
 struct SpatialHash {
   static constexpr bool repeats = false;
+  static constexpr bool is_tree = false;
   static bool by_list(std::size_t moved, std::size_t live) { return 2 * moved < live; }
 
   // FCL gives no rule for the cell. This is the mean of the boxes' longest sides (Teschner et al.,

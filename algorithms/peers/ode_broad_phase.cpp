@@ -80,6 +80,12 @@ class OdeBroadPhase final : public PeerBroadPhase {
     return Status::ok;
   }
 
+  void discard() override {
+    const auto lock = ode::enter();
+    clear();
+  }
+  void prepare(std::size_t slots) override { geoms_.reserve(slots); }
+
   void convert(std::span<const Aabb> boxes) override {
     converted_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) set_box(converted_[i], boxes[i], rules_.shift());

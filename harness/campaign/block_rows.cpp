@@ -58,6 +58,7 @@ std::vector<record::RawRow> BlockRows::of_reply(const measure::Round& round,
   }
   record::RawRow& row = rows.back();
   row.pair_count = reply.pairs;
+  row.worst_frame = reply.worst_frame;
   row.peak_kb = reply.peak_kb;
   row.minor_faults = reply.minor_faults;
   row.voluntary_switches = reply.voluntary_switches;

@@ -23,7 +23,8 @@ struct SampleRequest {
 
 // Sums over the window. A count that is missing is -1, and a number that is not known is NaN.
 struct SampleReply {
-  Durations durations;  // the timed parts, in the order in which they ran
+  Durations durations;                 // the timed parts, in the order in which they ran
+  double worst_frame = Outcome::none;  // seconds of a broad phase's longest frame
   std::int64_t pairs = 0;
   std::uint64_t pair_hash = 0;
   std::int64_t contacts = -1;

@@ -97,6 +97,7 @@ struct RawRow {
   // True if the narrow phase's depth is that of some translation that separates, by design.
   std::optional<bool> depth_bound;
   std::int64_t part_pairs = -1;
+  double worst_frame = Outcome::none;  // seconds
 
   void take(const BroadPhaseWork& work);
 
@@ -249,6 +250,9 @@ void columns(Row& row, Visit visit) {
   visit("part_pairs", newer(row.part_pairs),
         "Task `contacts`: pairs of triangles or convex parts that share a point, summed over the "
         "queries.");
+  visit("worst_frame", newer(row.worst_frame),
+        "Samples of a broad phase: seconds of the window's longest frame, its build or update and "
+        "find_pairs together; in the sample's last row.");
 }
 
 // Returns a narrow phase with its settings, as the tables name it: "gjk double", "gjk double

@@ -118,6 +118,8 @@ class Reader {
     sample.round = row.round;
     sample.position = row.position;
     sample.units = static_cast<double>(units);
+    sample.frame = row.frame;
+    sample.worst_frame = row.worst_frame;
     sample.noisy = !row.noise.empty() && row.noise != canary;
     add_phase(contestant, row.phase, sample, row.seconds);
   }

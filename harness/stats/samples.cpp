@@ -45,6 +45,7 @@ void add_phase(Contestant& contestant, record::Phase phase, Sample sample, doubl
   }
   samples.back().parts[at] = seconds;
   samples.back().noisy = samples.back().noisy || sample.noisy;
+  if (!std::isnan(sample.worst_frame)) samples.back().worst_frame = sample.worst_frame;
 }
 
 double Sample::seconds() const {
@@ -85,6 +86,21 @@ std::map<SquareKey, double> by_square(const Contestant& contestant, Noise noise)
   std::map<SquareKey, double> medians;
   for (auto& [square, values] : rounds) medians[square] = median(std::move(values));
   return medians;
+}
+
+double worst_frame(const Contestant& contestant, Noise noise) {
+  std::map<std::int64_t, double> windows;
+  for (const Sample& sample : contestant.samples) {
+    if (std::isnan(sample.worst_frame)) continue;
+    if (sample.noisy && noise == Noise::left_out) continue;
+    const auto [at, is_new] = windows.try_emplace(sample.frame, sample.worst_frame);
+    at->second = std::min(at->second, sample.worst_frame);
+  }
+  double worst = nan;
+  for (const auto& [frame, seconds] : windows) {
+    if (!(worst >= seconds)) worst = seconds;
+  }
+  return worst;
 }
 
 std::vector<double> logs(const std::map<SquareKey, double>& squares) {

@@ -48,6 +48,8 @@ struct Sample {
   std::array<double, phase_count> parts;  // seconds of each phase
   double units = 0;  // the number of frames of a broad phase, of queries of a narrow one
   bool noisy = false;
+  std::int64_t frame = 0;    // the first of the window
+  double worst_frame = nan;  // seconds of the longest one; NaN if it is not known
 
   double seconds() const;  // the sum of all parts; NaN if nothing was timed
 };
@@ -152,6 +154,10 @@ using SquareKey = std::pair<std::int64_t, std::int64_t>;  // process, square
 enum class Noise : std::uint8_t { left_out, kept };
 std::map<SquareKey, double> by_square(const Contestant& contestant, Noise noise);
 std::vector<double> logs(const std::map<SquareKey, double>& squares);
+
+// Returns the seconds of the longest frame of all windows; NaN if it is not known. A window that was
+// played several times counts with the least of its longest frames, since noise only adds.
+double worst_frame(const Contestant& contestant, Noise noise);
 
 // Returns log(a / b) for every square that both were in: the values of paired statistics.
 std::vector<double> paired_log_ratios(const Contestant& a, const Contestant& b, Noise noise);

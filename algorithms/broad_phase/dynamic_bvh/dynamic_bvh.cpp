@@ -16,8 +16,8 @@
 //          6. Test the kept pairs of moved bodies on the tight boxes.
 //          7. Query the tree for the leavers' partners, and add and remove the pairs in which these
 //             differ from the kept ones.
-//          8. Write the pairs that overlap, or those that began or ended since changes were last
-//             asked for.
+//          8. Write the pairs that overlap, those of some bodies, or those that began or ended
+//             since changes were last asked for.
 // Departs: nodes have 16 children, see bvh16.h. The margin follows what bodies move in a frame, and
 //          is at most a tenth of their size; a body that has not moved yet has none. The whole tree
 //          is loaded anew, along a Hilbert curve, only when many bodies leave their boxes at once.
@@ -56,6 +56,7 @@ class DynamicBvh final : public BroadPhase {
   void update(const FrameChange& change) override;
   Status find_pairs(PairSink& sink) override;
   Status find_changes(PairSink& began, PairSink& ended) override;
+  Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) override;
   BroadPhaseWork work() const override;
   // The nodes with their depths, and the fat boxes below the leaves where pairs of these are kept.
   std::vector<StructureBox> structure() const override {
@@ -296,6 +297,14 @@ Status DynamicBvh::find_changes(PairSink& began, PairSink& ended) {
     all_ = {};
     told_ = {};
   }
+  return Status::ok;
+}
+
+Status DynamicBvh::find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) {
+  if (how_ != Pairs::kept || bodies.size() > count_ / scattered) {
+    return BroadPhase::find_pairs_of(bodies, sink);
+  }
+  pairs_.write_of(bodies, sink);
   return Status::ok;
 }
 

@@ -101,8 +101,9 @@ void PairCache::test(Executor& executor, std::span<const Aabb> boxes) {
 }
 
 void PairCache::test(std::span<const std::uint32_t> ids, std::span<const Aabb> boxes) {
-  list_pairs_of(ids);
-  for (const std::uint32_t p : listed_) {
+  list_links_of(ids);
+  for (const std::uint32_t link : listed_) {
+    const std::uint32_t p = link / 2;
     const auto [a, b] = pairs_[p];
     set_bit(p, meet(boxes[a], boxes[b]) & (a != b));
   }
@@ -140,7 +141,7 @@ void PairCache::make_links() {
 }
 
 // Follows the lists of all bodies side by side, so that their cache misses overlap.
-void PairCache::list_pairs_of(std::span<const std::uint32_t> ids) {
+void PairCache::list_links_of(std::span<const std::uint32_t> ids) {
   make_links();
   if (open_.size() < ids.size() + 1) open_.resize(ids.size() + 1);  // one more entry is written
   listed_.clear();
@@ -154,15 +155,16 @@ void PairCache::list_pairs_of(std::span<const std::uint32_t> ids) {
     const std::size_t before = std::exchange(count, 0);
     for (std::size_t i = 0; i < before; ++i) {
       const std::uint32_t at = open_[i];
-      listed_.push_back(at / 2);
+      listed_.push_back(at);
       keep(next_[at]);
     }
   }
 }
 
 void PairCache::remove(std::span<const std::uint32_t> ids) {
-  list_pairs_of(ids);
-  for (const std::uint32_t p : listed_) {
+  list_links_of(ids);
+  for (const std::uint32_t link : listed_) {
+    const std::uint32_t p = link / 2;
     if (!is_gone(p)) remove(p);  // a pair of two of these bodies is listed twice
   }
 }
@@ -193,13 +195,17 @@ void PairCache::add(IndexPair pair, std::span<const Aabb> boxes) {
   link(place);
 }
 
+// Makes room for the numbers of so many rounds.
+void PairCache::start_rounds(std::uint32_t count) {
+  if (round_ <= none - count) return;
+  std::ranges::fill(seen_, 0);
+  round_ = 0;
+}
+
 std::size_t PairCache::replace(std::uint32_t id, std::span<const std::uint32_t> others,
                                std::span<const Aabb> boxes) {
   make_links();
-  if (round_ > none - 2) {
-    std::ranges::fill(seen_, 0);
-    round_ = 0;
-  }
+  start_rounds(2);
   const std::uint32_t wanted = ++round_;
   const std::uint32_t present = ++round_;
   for (const std::uint32_t other : others) seen_[other] = wanted;
@@ -277,6 +283,22 @@ void PairCache::write(Executor& executor, PairSink& sink) const {
                    copy_pairs_of_level()(&pairs_[first], bits.data(), words, out.end());
                    out.advance(count);
                  });
+}
+
+// A pair of two of these bodies is listed twice: it is written for its first body.
+void PairCache::write_of(std::span<const std::uint32_t> ids, PairSink& sink) {
+  start_rounds(1);
+  const std::uint32_t asked = ++round_;
+  for (const std::uint32_t id : ids) seen_[id] = asked;
+  list_links_of(ids);
+  sink.start(1);
+  PairBuffer& out = sink.chunk(0);
+  for (const std::uint32_t link : listed_) {
+    const std::size_t p = link / 2;
+    if ((overlaps_[p / word_bits] >> p % word_bits & 1) == 0) continue;
+    const IndexPair pair = pairs_[p];
+    if (link % 2 == 0 || seen_[pair.a] != asked) out.push(pair.a, pair.b);
+  }
 }
 
 std::size_t PairCache::held_bytes() const {

@@ -48,6 +48,8 @@ class PairCache {
 
   // Writes the pairs that overlapped when they were last tested.
   void write(Executor& executor, PairSink& sink) const;
+  // Writes those of these bodies, distinct, each once, in one chunk.
+  void write_of(std::span<const std::uint32_t> ids, PairSink& sink);
 
   // Begins to tell changes: those from the pairs that overlap now.
   void tell();
@@ -73,7 +75,8 @@ class PairCache {
   void link(std::size_t pair);
   void unlink(std::size_t pair);
   void remove(std::uint32_t pair);
-  void list_pairs_of(std::span<const std::uint32_t> ids);
+  void list_links_of(std::span<const std::uint32_t> ids);
+  void start_rounds(std::uint32_t count);
   void set_bit(std::size_t pair, bool value);
   void touch(std::size_t word) {
     touched_[word / word_bits] |= std::uint64_t{1} << word % word_bits;
@@ -90,10 +93,11 @@ class PairCache {
   bool are_linked_ = false;
   std::vector<std::uint32_t> first_of_;  // first link of each body
   PagedArray<std::uint32_t> next_, before_;
-  // For each body the number of a round of replace() in which it was wanted or present.
+  // For each body the number of a round of replace() in which it was wanted or present, or of
+  // write_of() in which it was asked for.
   std::vector<std::uint32_t> seen_;
   std::uint32_t round_ = 0;
-  std::vector<std::uint32_t> open_, listed_;  // scratch of list_pairs_of
+  std::vector<std::uint32_t> open_, listed_;  // scratch of list_links_of
   // Bits of the pairs that overlapped when changes were last told, of the words of bits that have
   // changed since, and the told pairs that were removed since.
   bool is_told_ = false;

@@ -20,6 +20,10 @@ float displacement(const Aabb& then, const Aabb& now) {
   return most;
 }
 
+float longest_side(const Aabb& box) {
+  return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
+}
+
 }  // namespace
 
 MeanMotion mean_motion(std::span<const Aabb> then, std::span<const Aabb> now, int age) {
@@ -49,32 +53,35 @@ MeanMotion mean_motion(std::span<const Aabb> then, std::span<const Aabb> now, in
 }
 
 void grow_boxes(Executor& executor, std::span<const Aabb> now, std::vector<Aabb>& reference,
-                int age, double frames, float mean_step) {
+                int age, double frames, const MeanMotion& mean) {
   constexpr std::size_t block_size = 4096;
   const auto growth = static_cast<float>(frames);
   constexpr float most = std::numeric_limits<float>::max();  // finite, as all boxes are
-  // Bodies that hardly move may start to.
-  const float least = mean_step / 2;
+  const auto share = static_cast<float>(mean.share);
   const std::size_t known = std::min(now.size(), reference.size());
   const float step_of = 0.5f / static_cast<float>(age);
   reference.resize(now.size(), Aabb::empty());
-  for_each_block(executor, now.size(), block_size,
-                 [&](std::size_t, std::size_t first, std::size_t last) {
-                   for (std::size_t i = first; i < last; ++i) {
-                     const Aabb& box = now[i];
-                     if (box.is_empty()) {
-                       reference[i] = Aabb::empty();
-                       continue;
-                     }
-                     const bool there = i < known && !reference[i].is_empty();
-                     const float step = there ? displacement(reference[i], box) * step_of : least;
-                     const float margin = growth * std::max(step, least);
-                     for (std::size_t axis = 0; axis < 3; ++axis) {
-                       reference[i].min[axis] = std::max(box.min[axis] - margin, -most);
-                       reference[i].max[axis] = std::min(box.max[axis] + margin, most);
-                     }
-                   }
-                 });
+  for_each_block(
+      executor, now.size(), block_size, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          const Aabb& box = now[i];
+          if (box.is_empty()) {
+            reference[i] = Aabb::empty();
+            continue;
+          }
+          const bool there = i < known && !reference[i].is_empty();
+          // Bodies that hardly move may start to, the small ones not as far. The box of one that
+          // leapt, or is fast for its size, would reach over many others.
+          const float side = longest_side(box);
+          const float least = growth * std::min(mean.step, share * side) / 2;
+          const float way = there ? growth * (displacement(reference[i], box) * step_of) : 0;
+          const float margin = way <= side ? std::max(way, least) : least;
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            reference[i].min[axis] = std::max(box.min[axis] - margin, -most);
+            reference[i].max[axis] = std::min(box.max[axis] + margin, most);
+          }
+        }
+      });
 }
 
 }  // namespace touchstone

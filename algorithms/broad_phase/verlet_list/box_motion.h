@@ -19,8 +19,10 @@ struct MeanMotion {
 MeanMotion mean_motion(std::span<const Aabb> then, std::span<const Aabb> now, int age);
 
 // Turns `reference`, the boxes of `age` frames ago, into the boxes of now grown by their motion in
-// this many frames. Each grows by at least half of the mean displacement `mean_step` a frame.
+// this many frames. Each grows by at least half of the mean displacement in these frames, or half of
+// the mean share of its longest side, whichever is less; and by no more if its own motion would be
+// beyond that side.
 void grow_boxes(Executor& executor, std::span<const Aabb> now, std::vector<Aabb>& reference,
-                int age, double frames, float mean_step);
+                int age, double frames, const MeanMotion& mean);
 
 }  // namespace touchstone

@@ -12,8 +12,8 @@
 //          5. Test the listed pairs of bodies that have not escaped (pair_tests.h).
 //          6. Search the R-tree for each escaped box, and test escaped boxes against each other.
 // Departs: each box grows by an amount that follows its own motion. Counts, not times, decide how
-//          many frames a list lasts, so that making and testing it cost least together. Escaped
-//          boxes are searched one by one while they are few. If motion is too fast for a list, the
+//          many frames a list lasts, so that making and testing it cost least together. The order
+//          of the R-tree is kept until its blocks have grown by a quarter. Escaped boxes are searched one by one while they are few. If motion is too fast for a list, the
 //          packed R-tree searches each frame.
 // Fails:   motion of a body's size a frame: it is then the packed R-tree, at a slightly higher
 //          cost.
@@ -45,6 +45,7 @@ class VerletList final : public BroadPhase {
 
   void build(std::span<const Aabb> boxes) override {
     boxes_ = boxes;
+    is_ordered_ = false;
     search_anew();
   }
 
@@ -57,7 +58,24 @@ class VerletList final : public BroadPhase {
   static constexpr std::size_t block_size = 4096;
   static constexpr std::size_t groups_a_task = 4;
   static constexpr std::size_t escaped_a_task = 32;
+  static constexpr double most_spread = 1.25;  // growth of the blocks with which an order is kept
 
+  // Loads the tree with these boxes, in the order of earlier ones while that is good.
+  void load(std::span<const Aabb> boxes) {
+    if (is_ordered_) {
+      fit(boxes);
+      const double spread = tree_.spread();
+      // The negation makes a NaN, from bounds that overflow, rebuild the order.
+      if (spread <= most_spread * spread_) {
+        spread_ = std::min(spread, spread_);
+        return;
+      }
+    }
+    order_.make(executor_, boxes);
+    fit(boxes);
+    spread_ = tree_.spread();
+    is_ordered_ = true;
+  }
   void fit(std::span<const Aabb> boxes) {
     if (order_.empty()) return;
     order_.gather(executor_, boxes, tree_.boxes());
@@ -76,7 +94,9 @@ class VerletList final : public BroadPhase {
   std::vector<RTreeScratch> scratch_;
   std::span<const Aabb> boxes_;  // boxes of this frame
   HilbertSort order_;
-  ImplicitRTree tree_;  // over the grown boxes while there is a list, else over this frame's
+  bool is_ordered_ = false;  // the order has all bodies that there are
+  double spread_ = 0;        // least spread of the blocks since the order was made
+  ImplicitRTree tree_;       // over the grown boxes while there is a list, else over this frame's
 
   // Grown boxes of the list, or the boxes of an earlier frame to measure motion by; indexed by
   // body.
@@ -96,8 +116,7 @@ class VerletList final : public BroadPhase {
 
 // Orders the boxes and searches without a list; keeps the boxes to measure motion.
 void VerletList::search_anew() {
-  order_.make(executor_, boxes_);
-  fit(boxes_);
+  load(boxes_);
   reference_.resize(boxes_.size());
   for_each_block(executor_, boxes_.size(), block_size,
                  [&](std::size_t, std::size_t first, std::size_t last) {
@@ -111,10 +130,9 @@ void VerletList::search_anew() {
 // Makes a list for this many frames; `reference_` holds the boxes of `age_` frames ago.
 void VerletList::make_list(double frames) {
   const MeanMotion motion = mean_motion(reference_, boxes_, age_);
-  grow_boxes(executor_, boxes_, reference_, age_, frames, motion.step);
+  grow_boxes(executor_, boxes_, reference_, age_, frames, motion);
   age_ = 0;
-  order_.make(executor_, reference_);
-  fit(reference_);
+  load(reference_);
   search_all(candidates_);
   listed_ = true;
   escaped_flag_.assign(boxes_.size(), 0);
@@ -173,6 +191,7 @@ bool VerletList::find_escaped(const FrameChange& change) {
 void VerletList::update(const FrameChange& change) {
   boxes_ = change.boxes;
   ++age_;
+  if (!change.inserted.empty() || !change.removed.empty()) is_ordered_ = false;
   if (listed_) {
     if (find_escaped(change)) {
       escaped_boxes_.gather(executor_, boxes_, escaped_.size(),

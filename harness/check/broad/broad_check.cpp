@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <iterator>
 #include <memory>
+#include <numeric>
+#include <string_view>
+#include <utility>
 
 #include "algorithms/core/executor/executor.h"
 #include "harness/process/isolate.h"
@@ -21,7 +25,7 @@ constexpr int threads = 2;
 struct Found {
   Status status = Status::ok;
   std::size_t frames = 0;
-  std::array<grade::PairFaults, most_frames> faults{};
+  std::array<FrameFaults, most_frames> faults{};
 };
 
 std::vector<IndexPair> true_pairs(std::span<const Aabb> boxes) {
@@ -53,26 +57,91 @@ struct Change {
   }
 };
 
+using Pairs = std::vector<IndexPair>;
+
+// Returns the pairs of which one body, or both, is among these, which ascend.
+Pairs pairs_of(std::span<const std::uint32_t> bodies, const Pairs& pairs) {
+  Pairs some;
+  std::ranges::copy_if(pairs, std::back_inserter(some), [&](const IndexPair& pair) {
+    return std::ranges::binary_search(bodies, pair.a) || std::ranges::binary_search(bodies, pair.b);
+  });
+  return some;
+}
+
+Pairs without(const Pairs& from, const Pairs& what) {
+  Pairs rest;
+  std::ranges::set_difference(from, what, std::back_inserter(rest));
+  return rest;
+}
+
+// Asks a broad phase, frame by frame, and grades its answers.
+class Asked {
+ public:
+  explicit Asked(BroadPhase& algorithm) : algorithm_(&algorithm) {}
+
+  // `before` has the boxes of the frame before, `fresh` the bodies that moved or came since.
+  // Returns the first status that is not ok.
+  Status ask(std::span<const Aabb> boxes, std::span<const Aabb> before,
+             const std::vector<std::uint32_t>& fresh, FrameFaults& faults) {
+    before_ = before;
+    const Pairs truth = true_pairs(boxes);
+    // The bodies that are awake change from frame to frame.
+    std::vector<std::uint32_t> awake;
+    for (std::uint32_t id = 0; id < boxes.size(); ++id) {
+      if ((id + id / 7 + frame_ / 2) % 3 == 0) awake.push_back(id);
+    }
+    ++frame_;
+    const Pairs awake_truth = pairs_of(awake, truth);
+    grade(algorithm_->find_pairs(sink_), faults.pairs, truth);
+    grade(algorithm_->find_pairs_of(fresh, sink_), faults.moved, pairs_of(fresh, truth));
+    grade(algorithm_->find_pairs_of(awake, sink_), faults.awake, awake_truth);
+    PairSink ended;
+    const auto grade_changes = [&](Status status, grade::PairFaults& began_faults,
+                                   grade::PairFaults& ended_faults, Pairs& told, const Pairs& now) {
+      grade(status, began_faults, without(now, told));
+      std::swap(sink_, ended);
+      grade(status, ended_faults, without(told, now));
+      told = now;
+    };
+    grade_changes(algorithm_->find_changes(sink_, ended), faults.began, faults.ended, told_, truth);
+    grade_changes(algorithm_->find_changes_of(awake, sink_, ended), faults.awake_began,
+                  faults.awake_ended, told_awake_, awake_truth);
+    return status_;
+  }
+
+ private:
+  void grade(Status status, grade::PairFaults& faults, const Pairs& truth) {
+    if (status_ == Status::ok) status_ = status;
+    Pairs found = sink_.gather();
+    faults = grade::check_pairs(found, truth, before_);
+  }
+
+  BroadPhase* algorithm_;
+  PairSink sink_;
+  Pairs told_, told_awake_;
+  std::span<const Aabb> before_;
+  std::uint32_t frame_ = 0;
+  Status status_ = Status::ok;
+};
+
 Found play(const BroadPhaseEntry& entry, const BoxScene& scene) {
   Executor executor(threads);
   const std::unique_ptr<BroadPhase> algorithm = entry.make(executor);
-  PairSink sink;
+  Asked asked(*algorithm);
   Found found;
   std::span<const Aabb> before;
   for (const std::vector<Aabb>& boxes : scene.frames) {
+    const Change change(before, boxes);
+    std::vector<std::uint32_t> fresh;
+    std::ranges::merge(change.moved, change.inserted, std::back_inserter(fresh));
     if (before.empty()) {
       algorithm->build(boxes);
     } else {
-      const Change change(before, boxes);
       algorithm->update({boxes, change.moved, change.inserted, change.removed});
     }
-    const Status status = algorithm->find_pairs(sink);
-    if (status != Status::ok) {
-      found.status = status;
-      return found;
-    }
-    std::vector<IndexPair> pairs = sink.gather();
-    found.faults[found.frames++] = grade::check_pairs(pairs, true_pairs(boxes), before);
+    found.status = asked.ask(boxes, before, fresh, found.faults[found.frames]);
+    if (found.status != Status::ok) return found;
+    ++found.frames;
     before = boxes;
   }
   return found;
@@ -80,9 +149,26 @@ Found play(const BroadPhaseEntry& entry, const BoxScene& scene) {
 
 }  // namespace
 
+bool FrameFaults::none() const { return words().empty(); }
+
+std::string FrameFaults::words() const {
+  std::string text;
+  const auto add = [&](std::string_view question, const grade::PairFaults& faults) {
+    if (faults.none()) return;
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", question, to_string(faults));
+  };
+  add("", pairs);
+  add("of the moved: ", moved);
+  add("of the awake: ", awake);
+  add("began: ", began);
+  add("ended: ", ended);
+  add("began of the awake: ", awake_began);
+  add("ended of the awake: ", awake_ended);
+  return text;
+}
+
 bool BroadCheck::good() const {
-  return status == Status::ok &&
-         std::ranges::all_of(frames, [](const grade::PairFaults& f) { return f.none(); });
+  return status == Status::ok && std::ranges::all_of(frames, &FrameFaults::none);
 }
 
 std::string BroadCheck::faults() const {
@@ -90,7 +176,7 @@ std::string BroadCheck::faults() const {
   std::string text;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (frames[i].none()) continue;
-    text += fmt::format("{}frame {}: {}", text.empty() ? "" : "; ", i, to_string(frames[i]));
+    text += fmt::format("{}frame {}: {}", text.empty() ? "" : "; ", i, frames[i].words());
   }
   return text;
 }

@@ -17,6 +17,12 @@ BroadSampler::BroadSampler(const BroadPhaseEntry& entry, const BlockInput& input
       rebuild_(rebuild || input.frames.size() == 1),
       algorithm_(entry.make(executor)) {}
 
+void BroadSampler::make_ready(std::size_t frame) {
+  if (!is_built(frame)) return;
+  algorithm_->discard();
+  algorithm_->prepare(input_->frames[frame].boxes.size());
+}
+
 void BroadSampler::prepare(std::size_t frame) {
   const BlockFrame& now = input_->frames[frame];
   if (is_built(frame)) {
@@ -27,6 +33,7 @@ void BroadSampler::prepare(std::size_t frame) {
 }
 
 void BroadSampler::step(std::size_t frame, SampleReply& reply) {
+  make_ready(frame);
   const base::Stopwatch preparing;
   prepare(frame);
   const double prepared = preparing.seconds();
@@ -36,6 +43,8 @@ void BroadSampler::step(std::size_t frame, SampleReply& reply) {
   reply.durations.add(to_string(is_built(frame) ? record::Phase::build : record::Phase::update),
                       prepared);
   reply.durations.add(to_string(record::Phase::find_pairs), found);
+  // NaN, of no frame yet, is less than nothing.
+  if (!(reply.worst_frame >= prepared + found)) reply.worst_frame = prepared + found;
   if (status != Status::ok) reply.status = status;
   reply.pairs += static_cast<std::int64_t>(sink_.size());
   at_ = static_cast<std::ptrdiff_t>(frame);
@@ -87,6 +96,7 @@ SampleReply BroadSampler::play(std::size_t frame) {
 BroadSampler::FrameAllocations BroadSampler::count_allocations(std::size_t frame) {
   if (!is_built(frame)) play_up_to(frame);
   FrameAllocations allocations;
+  make_ready(frame);
   {
     const AllocationCount count;
     prepare(frame);

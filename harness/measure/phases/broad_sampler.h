@@ -16,6 +16,9 @@ namespace touchstone::measure {
 // with `rebuild`, or when there is no other frame, every frame is built and counts. When a window
 // does not continue the one before, the frames up to it are played before the clock starts.
 //
+// The end of the frame before a build, and what a build does not need its boxes for, are outside the
+// clock (BroadPhase::discard and prepare).
+//
 // The durations are `build` or `update`, and `find_pairs`. A `hashed` request of one frame has
 // `convert` too: the part of a library's build or update that converts boxes to its own types, run
 // and timed again by itself.
@@ -36,6 +39,7 @@ class BroadSampler final : public Sampler {
 
  private:
   void step(std::size_t frame, SampleReply& reply);
+  void make_ready(std::size_t frame);
   void prepare(std::size_t frame);
   double time_conversion(std::size_t frame);
   void play_up_to(std::size_t frame);

@@ -14,7 +14,7 @@ namespace touchstone::stats {
 std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
   base::Table table({"input", "ours", "peer", "of Bullet and FCL", "ours, ms", "peer, ms",
                      "peer / ours", "95 % interval", "Bullet or FCL, ms", "/ ours", "95 % interval",
-                     "ours / limit", "bytes / body", "speed-up", "growth"},
+                     "ours / limit", "bytes / body", "speed-up", "growth", "worst / median"},
                     4);
   const auto name = [](const std::string& label) { return label.empty() ? "-" : label; };
   for (const BroadBestRow& row : rows) {
@@ -25,13 +25,15 @@ std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
                base::cell(row.bullet_or_fcl.seconds * 1e3),
                base::cell(row.bullet_or_fcl.ratio.median), interval_cell(row.bullet_or_fcl.ratio),
                base::cell(row.over_limit.median), base::cell(row.bytes_a_body),
-               base::cell(row.speed_up.median), base::cell(row.exponent)});
+               base::cell(row.speed_up.median), base::cell(row.exponent),
+               base::cell(row.worst_frame / row.ours.seconds)});
   }
   if (table.is_empty()) return "";
   return "## The best of our broad phases against the best of others\n\nMilliseconds a frame; "
          "ratios are of the other's time over that of ours. The limit is a radix sort, a gather\n"
          "of the boxes and the writing of the pairs. Speed-up is over the fewest threads, growth "
-         "the exponent of\ntime over bodies where there are many.\n\n" +
+         "the exponent of\ntime over bodies where there are many. Worst is the longest frame of "
+         "ours, over its median.\n\n" +
          table.markdown() + "\n";
 }
 

@@ -47,6 +47,7 @@ std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const 
     scene.seed = scene.scene_hash = "";
     const ExponentRow* const exponent = find_row(tables.exponents, scene, ours->label);
     row.exponent = exponent == nullptr ? nan : exponent->law_of_many.exponent;
+    row.worst_frame = worst_frame(*ours, noise);
   }
   return rows;
 }

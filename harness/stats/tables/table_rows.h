@@ -43,6 +43,9 @@ void columns(Row& row, Visit visit) {
         "Number of samples with a modified z above 3.5; flagged, never left out.");
   visit("wrong", row.wrong, "1 if it departs from the pairs of `naive`, or from an exact answer.");
   visit("failure", row.failure, "crashed, timed_out, unsupported or wrong; empty for none.");
+  visit("worst_frame", row.worst_frame,
+        "The longest frame of all windows, seconds; a window that was played several times counts "
+        "with the least of its longest frames. Empty for narrow phases, and if it is not known.");
 }
 
 // Visits the columns of a ratio that was tested.
@@ -167,6 +170,7 @@ void columns(Row& row, Visit visit) {
         "The fewest threads, of our speed-up; empty where there is none.");
   interval_columns("speed_up", row.speed_up, "Speed-up of ours over the fewest threads.", visit);
   visit("exponent_of_many", row.exponent, "Exponent of ours, as in exponents.csv.");
+  visit("worst_frame", row.worst_frame, "The longest frame of ours, as in times.csv.");
 }
 
 // narrow_best.csv

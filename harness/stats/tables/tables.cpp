@@ -35,6 +35,7 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
   row.origin = contestant.origin;
   row.seconds = median_interval(values_of(by_square(contestant, noise)), confidence);
   row.minimum = nan;
+  row.worst_frame = worst_frame(contestant, noise);
   std::vector<double> all;
   std::array<std::vector<double>, phase_count> parts;
   for (const Sample& sample : contestant.samples) {

@@ -21,6 +21,7 @@ struct TimeRow {
   bool per_query = false;  // true if the times are those of a query, not of a frame
   MedianInterval seconds;  // an estimate over the squares
   double minimum = 0;      // the minimum of all samples, noisy ones too, because noise only adds
+  double worst_frame = std::numeric_limits<double>::quiet_NaN();  // see samples.h
   std::array<double, phase_count> parts;  // medians of the phases, NaN for absent ones
   std::int64_t samples = 0, noisy = 0, outliers = 0;
   bool wrong = false;   // true for wrong pairs, or an answer on the wrong side of contact
@@ -112,7 +113,8 @@ struct BroadBestRow {
   double bytes_a_body;        // memory of ours
   std::int64_t base_threads;  // threads of the base of our speed-up; 0: none
   MedianInterval speed_up;
-  double exponent;  // exponent of the time of ours, from many_bodies on
+  double exponent;     // exponent of the time of ours, from many_bodies on
+  double worst_frame;  // seconds of the longest frame of ours, see samples.h
 };
 
 // The fastest of ours among the narrow phases of a set, against the others, with their errors. An

@@ -40,7 +40,8 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
   const double scale = broad ? 1e3 : 1e9;
   std::vector<std::string> names = {"", broad ? "ms a frame" : "ns a query", "95 % interval",
                                     "minimum"};
-  if (broad) names.insert(names.end(), {"build", "update", "(converting)", "find pairs"});
+  if (broad)
+    names.insert(names.end(), {"worst frame", "build", "update", "(converting)", "find pairs"});
   names.insert(names.end(), {"ratio", "95 % interval", "p (Holm)", "squares", "remarks"});
   base::Table table(std::move(names));
   std::string baseline;
@@ -57,6 +58,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
                                       interval_cell(row.seconds, scale),
                                       base::cell(row.minimum * scale)};
     if (broad) {
+      cells.push_back(base::cell(row.worst_frame * scale));
       for (const record::Phase part : {record::Phase::build, record::Phase::update,
                                        record::Phase::convert, record::Phase::find_pairs}) {
         cells.push_back(base::cell(row.parts[static_cast<std::size_t>(part)] * scale));

@@ -51,6 +51,13 @@ TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
     EXPECT_TRUE(row.status == record::RowStatus::unsupported || row.seconds > 0);
     EXPECT_EQ(row.kind == record::RowKind::sample, row.square >= 0);
     if (row.kind == record::RowKind::sample) processes[record::label_of(row)].insert(row.process);
+    // A window has at least one frame, and its longest one is the build or update too.
+    const bool has_worst =
+        row.kind == record::RowKind::sample && row.phase == record::Phase::find_pairs;
+    EXPECT_EQ(row.worst_frame > 0, has_worst);
+    if (has_worst) {
+      EXPECT_GT(row.worst_frame * static_cast<double>(row.frames), row.seconds);
+    }
     if (row.kind == record::RowKind::check && row.phase == record::Phase::find_pairs) {
       hashes[row.frame].insert(row.pair_hash);
     }

@@ -199,6 +199,78 @@ TEST_F(PairsCommand, WhatTakesTooLongIsARowOfItsOwn) {
               ElementsAre(ElementsAre("1", "0", "1")));
 }
 
+TEST_F(PairsCommand, WritesThePairsOfWhatMoved) {
+  const auto file = folder.write("in.csv", random_boxes(5));
+  const auto expected = all_pairs(file);
+  const auto frames = scene::read_box_frames(file);
+  const Ran ran = run_program("pairs " + file.string() + " --broad naive,dynamic-bvh --out " +
+                              path("out.csv") + " --moved " + path("moved.csv"));
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  std::vector<std::vector<std::string>> wanted;
+  std::size_t left_out = 0;
+  for (std::size_t frame = 0; frame < expected.size(); ++frame) {
+    std::set<std::uint32_t> fresh(frames[frame].moved.begin(), frames[frame].moved.end());
+    fresh.insert(frames[frame].inserted.begin(), frames[frame].inserted.end());
+    for (const char* algorithm : {"dynamic-bvh", "naive"}) {
+      for (const IndexPair& pair : expected[frame]) {
+        if (frame > 0 && !fresh.contains(pair.a) && !fresh.contains(pair.b)) {
+          ++left_out;
+        } else {
+          wanted.push_back(
+              {std::to_string(frame), algorithm, std::to_string(pair.a), std::to_string(pair.b)});
+        }
+      }
+    }
+  }
+  EXPECT_GT(left_out, 10u);
+  auto found = read_rows(folder.path() / "moved.csv", {"frame", "algorithm", "a", "b"});
+  std::ranges::sort(found);
+  std::ranges::sort(wanted);
+  EXPECT_EQ(found, wanted);
+}
+
+TEST_F(PairsCommand, TwoBodiesAtRestAreNoPair) {
+  const auto file = folder.write("in.csv", random_boxes(6));
+  std::string resting = "id\n";
+  for (int id = 0; id < 40; ++id) resting += id % 3 == 0 ? "" : fmt::format("{}\n", id);
+  const auto ids = folder.write("resting.csv", resting);
+  const auto expected = all_pairs(file);
+  const Ran ran = run_program("pairs " + file.string() + " --broad all --out " + path("out.csv") +
+                              " --pairs " + path("pairs.csv") + " --changes " +
+                              path("changes.csv") + " --resting " + ids.string());
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  const auto rests = [](std::uint32_t id) { return id < 40 && id % 3 != 0; };
+  std::vector<std::vector<IndexPair>> wanted;
+  std::size_t left_out = 0;
+  for (const auto& pairs : expected) {
+    auto& kept = wanted.emplace_back();
+    for (const IndexPair& pair : pairs) {
+      if (rests(pair.a) && rests(pair.b)) {
+        ++left_out;
+      } else {
+        kept.push_back(pair);
+      }
+    }
+  }
+  EXPECT_GT(left_out, 10u);
+  std::size_t rows = 0, began = 0;
+  for (const auto& row : read_rows(folder.path() / "out.csv", pair_columns)) {
+    const auto frame = static_cast<std::size_t>(std::stoi(row[0]));
+    if (row[1].starts_with("fcl-sap") || row[1].starts_with("fcl-interval")) continue;
+    EXPECT_EQ(row[4], std::to_string(wanted[frame].size())) << row[1];
+    EXPECT_EQ(row[5], base::to_hex(base::pair_hash(wanted[frame]))) << row[1];
+    ++rows;
+  }
+  EXPECT_GE(rows, 6 * 13u);
+  for (const auto& row :
+       read_rows(folder.path() / "changes.csv", {"frame", "algorithm", "a", "b", "change"})) {
+    EXPECT_FALSE(rests(static_cast<std::uint32_t>(std::stoul(row[2]))) &&
+                 rests(static_cast<std::uint32_t>(std::stoul(row[3]))));
+    began += row[0] == "0" && row[1] == "naive" ? 1 : 0;
+  }
+  EXPECT_EQ(began, wanted[0].size());
+}
+
 TEST_F(PairsCommand, BadInput) {
   const auto refuse = [&](const std::string& content, const std::string& text) {
     folder.write("in.csv", content);
@@ -244,6 +316,13 @@ TEST_F(PairsCommand, BadRequests) {
   expect_refusal(
       in + " --broad naive" + out + " --pairs " + path("p.csv") + " --changes " + path("p.csv"),
       "--pairs and --changes name the same file");
+  expect_refusal(
+      in + " --broad naive" + out + " --moved " + path("p.csv") + " --pairs " + path("p.csv"),
+      "--pairs and --moved name the same file");
+  folder.write("ids.csv", "id\n0\n1\n");
+  expect_refusal(in + " --broad naive" + out + " --resting " + path("ids.csv"),
+                 "ids.csv:3: column id: found 1; expected the id of a box, 0 to 0");
+  expect_refusal(in + " --broad naive" + out + " --resting " + path("none.csv"), "none.csv");
 }
 
 }  // namespace

@@ -150,5 +150,33 @@ TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
               HasSubstr("No such file"));
 }
 
+// Two windows: the first was played three times, once under noise.
+TEST(WorstFrame, IsThatOfTheWindowWhoseLeastIsGreatest) {
+  Contestant contestant;
+  const auto play = [&](std::int64_t frame, std::int64_t round, double update, double worst,
+                        bool noisy = false) {
+    Sample sample;
+    sample.round = round;
+    sample.units = 4;
+    sample.frame = frame;
+    sample.noisy = noisy;
+    add_phase(contestant, record::Phase::update, sample, update);
+    sample.worst_frame = worst;  // it stands in the sample's last row
+    add_phase(contestant, record::Phase::find_pairs, sample, 1);
+  };
+  EXPECT_TRUE(std::isnan(worst_frame(contestant, Noise::left_out)));
+  play(1, 0, 3, 2);
+  play(1, 1, 9, 8);
+  play(1, 2, 1, 0.5, true);
+  EXPECT_EQ(worst_frame(contestant, Noise::left_out), 2);
+  EXPECT_EQ(worst_frame(contestant, Noise::kept), 0.5);
+  play(5, 3, 3, 2.5);
+  EXPECT_EQ(contestant.samples.size(), 4u);
+  EXPECT_EQ(worst_frame(contestant, Noise::left_out), 2.5);
+  EXPECT_EQ(worst_frame(contestant, Noise::kept), 2.5);
+  play(9, 4, 3, nan);
+  EXPECT_EQ(worst_frame(contestant, Noise::left_out), 2.5);
+}
+
 }  // namespace
 }  // namespace touchstone::stats

@@ -118,6 +118,43 @@ TEST(BroadCheck, ADroppedPairIsFound) {
   }
 }
 
+// Answers all pairs where it is asked for those of some bodies, and tells no end.
+class ForgetfulBroadPhase final : public BroadPhase {
+ public:
+  void build(std::span<const Aabb> boxes) override { boxes_ = boxes; }
+  void update(const FrameChange& change) override { boxes_ = change.boxes; }
+  Status find_pairs(PairSink& sink) override { return all_but(0, boxes_, sink); }
+  Status find_pairs_of(std::span<const std::uint32_t>, PairSink& sink) override {
+    return find_pairs(sink);
+  }
+  Status find_changes(PairSink& began, PairSink& ended) override {
+    const Status status = BroadPhase::find_changes(began, ended);
+    ended.start(0);
+    return status;
+  }
+
+ private:
+  std::span<const Aabb> boxes_;
+};
+
+TEST(BroadCheck, WrongAnswersToOtherQuestionsAreFound) {
+  const std::vector<check::BoxScene> scenes = {check::box_scenes(1)[0]};
+  const BroadPhaseEntry entry = {
+      .info = {.name = "planted", .citation = "a test", .origin = Origin::ours},
+      .make = [](Executor&) { return std::make_unique<ForgetfulBroadPhase>(); }};
+  const std::vector<check::BroadCheck> checks = check(entry, scenes);
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_FALSE(checks[0].good());
+  for (const char* words :
+       {"of the moved: ", "of the awake: ", "ended: ", "began of the awake: "}) {
+    EXPECT_THAT(checks[0].faults(), HasSubstr(words));
+  }
+  for (const check::FrameFaults& faults : checks[0].frames) {
+    EXPECT_TRUE(faults.pairs.none());
+    EXPECT_TRUE(faults.began.none());
+  }
+}
+
 TEST(BroadCheck, CrashesHangsAndRefusalsAreFound) {
   const std::vector<check::BoxScene> scenes = {check::box_scenes(1)[0]};
   const auto status = [&](const Find& find, double seconds) {
