@@ -80,7 +80,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"gjk", {"epa", "minkowski", "simd"}},
     {"mpr", {"gjk", "minkowski"}},
     {"sat", {"minkowski", "simd"}},
-    {"batch", {"minkowski", "simd"}},
+    {"batch", {"gjk", "minkowski", "simd"}},
     {"triangles", {"simd"}},
     {"features", {}},
     {"rays", {"bvh", "simd"}},
