@@ -5,7 +5,8 @@
 // Steps:   1. A half-space takes one support point (kernels/minkowski/halfspace).
 //          2. Pairs whose bounding balls are apart are separated (not for distance).
 //          3. With a memory, try the last separating plane before anything else, as both bodies
-//             carry it (kernels/gjk/carried_plane); then the last tetrahedron, plane or simplex
+//             carry it (kernels/gjk/carried_plane), for all pairs of a batch in lanes (warm_planes);
+//             then the last tetrahedron, plane or simplex
 //             (kernels/gjk/warm_start).
 //          4. Iterate fast with plain products (kernels/gjk/gjk_iteration); between polytopes its
 //             verdict is enough.
@@ -46,6 +47,7 @@
 #include "algorithms/kernels/batch/for_each_pair.h"
 #include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/narrow_phase.h"
+#include "algorithms/warm_planes.h"
 
 namespace touchstone {
 namespace {
@@ -54,7 +56,7 @@ template <class Scalar>
 class Gjk final : public NarrowPhase {
  public:
   explicit Gjk(const GjkQuerySettings& settings)
-      : warm_(settings.momentum == Momentum::none), query_(settings) {}
+      : warm_(settings.momentum == Momentum::none), margin_(settings.margin), query_(settings) {}
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
@@ -62,6 +64,15 @@ class Gjk final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
+    if (warm_ && WarmPlanes::may_answer(task, batch, margin_)) {
+      const std::span<const std::uint32_t> places =
+          planes_.answer(task, batch, false, outcomes, margin_);
+      for_each_pair(planes_.others(batch).pairs, shapes_, ahead_, asks_distance(task),
+                    [&](std::size_t k, const auto&... bodies) {
+                      solve_warm(task, batch, places[k], bodies..., outcomes[places[k]], true);
+                    });
+      return;
+    }
     for_each_bounded_pair(task, batch, shapes_, ahead_, asks_distance(task), outcomes,
                           [&](std::size_t i, const auto&... bodies) {
                             solve_pair(task, batch, i, bodies..., outcomes[i]);
@@ -82,16 +93,24 @@ class Gjk final : public NarrowPhase {
       query_.solve(a, pose_a, b, pose_b, task, nullptr, outcome);
       return;
     }
+    solve_warm(task, batch, i, a, pose_a, b, pose_b, outcome, false);
+  }
+
+  void solve_warm(Task task, const PairBatch& batch, std::size_t i, const SupportShape<Scalar>& a,
+                  const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b,
+                  Outcome& outcome, bool plane_fails) {
     PairMemory& memory = batch.memory[batch.memory_of[i]];
     static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
                   std::is_trivially_copyable_v<WarmStart>);
     WarmStart start;
     std::memcpy(&start, memory.bytes.data(), sizeof start);
-    query_.solve(a, pose_a, b, pose_b, task, &start, outcome);
+    query_.solve(a, pose_a, b, pose_b, task, &start, outcome, plane_fails);
     std::memcpy(memory.bytes.data(), &start, sizeof start);
   }
 
   bool warm_;
+  double margin_;  // metres
+  WarmPlanes planes_;
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
   ShapePrefetch<Scalar> ahead_;

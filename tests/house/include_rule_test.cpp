@@ -63,7 +63,7 @@ bool is_contract(const std::string& path) {
       "concave_phase",    "cast",         "ccd",
       "encoding",         "limit",        "algorithm_info",
       "broad_phase_work", "pair_query",   "signed_by_two",
-      "within_margin",    "point_query"};
+      "within_margin",    "warm_planes"};
   return path.starts_with("algorithms/") && path.ends_with(".h") &&
          contracts.contains(path.substr(11, path.size() - 13));
 }
@@ -80,7 +80,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"gjk", {"epa", "minkowski", "simd"}},
     {"mpr", {"gjk", "minkowski"}},
     {"sat", {"minkowski", "simd"}},
-    {"batch", {"minkowski", "simd"}},
+    {"batch", {"gjk", "minkowski", "simd"}},
     {"triangles", {"simd"}},
     {"features", {}},
     {"motion", {"gjk", "minkowski"}},

@@ -14,7 +14,10 @@ Vec3d read(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 CarriedPlane CarriedPlane::make(const Vec3d& normal, double gap, double radius_a,
                                 const Pose& pose_a, double radius_b, const Pose& pose_b) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  const auto above = [](double x) { return std::nextafter(static_cast<float>(x), infinity); };
+  // The nearest float is off by half a unit in the last place, or by half the least float.
+  const auto above = [](double x) {
+    return static_cast<float>(x + (0x1p-23 * std::abs(x) + 0x1p-149));
+  };
   CarriedPlane plane;
   const Vec3d in_a = pose_a.rotation.transpose() * normal;
   const Vec3d in_b = pose_b.rotation.transpose() * normal;
@@ -22,10 +25,12 @@ CarriedPlane CarriedPlane::make(const Vec3d& normal, double gap, double radius_a
     plane.in_a_[k] = static_cast<float>(in_a[k]);
     plane.in_b_[k] = static_cast<float>(in_b[k]);
   }
-  // Along `normal` the bodies are apart by `gap`; the normals that are kept are off by rounding.
+  // Along `normal` the bodies are apart by `gap`; the normals that are kept are off by rounding: a
+  // component by 2^-24 of it, or half the least float.
   const Vec3d offset = pose_b.translation - pose_a.translation;
-  const double reach = normal.dot(offset) - gap + radius_a * (in_a - read(plane.in_a_)).norm() +
-                       radius_b * (in_b - read(plane.in_b_)).norm() +
+  const double lost = 0x1p-24 * (radius_a * in_a.lpNorm<1>() + radius_b * in_b.lpNorm<1>()) +
+                      0x1p-149 * (radius_a + radius_b);
+  const double reach = normal.dot(offset) - gap + lost +
                        rounding * (2 * offset.lpNorm<1>() + 8 * (radius_a + radius_b));
   plane.reach_ = gap > 0 ? above(reach) : infinity;
   plane.radius_a_ = above(radius_a);

@@ -1,4 +1,5 @@
-// A separating plane that both bodies carry with them. Used by gjk's warm start.
+// A separating plane that both bodies carry with them. Used by the warm start of gjk, gjk-lanes,
+// ellipsoid and smooth; kernels/batch/plane_lanes.h tests many at once.
 //
 // A plane's normal is kept in the axes of either body. As long as the two turn to nearly the same
 // direction in the world, the bodies reach as far along it as they did, whatever their shapes: no
@@ -38,15 +39,20 @@ class CarriedPlane {
   // if there is none.
   Vec3d normal(const Pose& pose_a, const Pose& pose_b) const;
 
- private:
+  // Returns true if `make` wrote it. A sum over the numbers tells that from anything else, so that
+  // nothing else is believed.
+  bool is_own() const { return sum() == sum_; }
+
   // All rounding errors of a bound together, as a part of the sum of all lengths. With matrices of a
   // norm of at most four, that of a part of d is at most 24 u.
   static constexpr double rounding = 64 * 0x1p-53;
+  // Both matrices' squares of all entries together are below this; rotations have six.
+  static constexpr double greatest_squares = 16;
 
-  // A sum over the numbers that are kept. It tells what this class wrote from anything else, so that
-  // nothing else is believed.
+ private:
   std::uint32_t sum() const;
 
+  // The lanes of plane_lanes.inl read these nine numbers in this order.
   std::array<float, 3> in_a_{}, in_b_{};  // the normal from a to b in the axes of either body
   float reach_ = 0;                       // metres: how far both bodies reach along it, together
   float radius_a_ = 0, radius_b_ = 0;     // metres: greatest distance of a point from the origin
@@ -55,13 +61,13 @@ class CarriedPlane {
 
 inline std::uint32_t CarriedPlane::sum() const {
   const auto two = [](float x, float y) {
-    return std::uint64_t{std::bit_cast<std::uint32_t>(x)} << 32 | std::bit_cast<std::uint32_t>(y);
+    return std::uint64_t{std::bit_cast<std::uint32_t>(y)} << 32 | std::bit_cast<std::uint32_t>(x);
   };
   // Odd multipliers of our own choice, and an offset, so that zeros have a sum other than zero.
   const std::uint64_t mixed =
       two(in_a_[0], in_a_[1]) * 0x9e3779b97f4a7c15 + two(in_a_[2], in_b_[0]) * 0xc2b2ae3d27d4eb4f +
       two(in_b_[1], in_b_[2]) * 0x165667b19e3779f9 + two(reach_, radius_a_) * 0xd6e8feb86659fd93 +
-      two(radius_b_, 1) * 0xff51afd7ed558ccd;
+      two(1, radius_b_) * 0xff51afd7ed558ccd;
   return static_cast<std::uint32_t>(mixed >> 32);
 }
 
@@ -96,7 +102,7 @@ inline bool CarriedPlane::parts(const Pose& pose_a, const Pose& pose_b, double m
   const double bend = radius_a * radius_a * off_a + radius_b * radius_b * off_b;
   constexpr double twice = 2 * (1 + rounding);
   return gap > 0 && gap * gap > twice * bend && excess < 1 &&
-         r.squaredNorm() + s.squaredNorm() < 16 && sum() == sum_;
+         r.squaredNorm() + s.squaredNorm() < greatest_squares && is_own();
 }
 
 }  // namespace touchstone

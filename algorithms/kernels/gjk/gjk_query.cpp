@@ -54,12 +54,6 @@ bool is_at_a_face(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex, Out
   return write_if_touching(pair, std::min(-height, Scalar{0}), upper, outcome);
 }
 
-// Greatest distance of a point of the body from its origin, in metres.
-template <class Scalar>
-double radius_of(const SupportShape<Scalar>& shape) {
-  return shape.centre.norm() + shape.size + shape.radius;
-}
-
 }  // namespace
 
 // Returns the offset of the centres, or writes the answer and returns nothing if the last plane or the
@@ -67,13 +61,13 @@ double radius_of(const SupportShape<Scalar>& shape) {
 template <class Scalar>
 [[gnu::always_inline]] inline std::optional<CentreOffset> GjkQuery<Scalar>::offset_unless_apart(
     const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
-    const Pose& pose_b, Task task, const WarmStart* start, Outcome& outcome) const {
+    const Pose& pose_b, Task task, const CarriedPlane* plane, Outcome& outcome) const {
   const bool measured = asks_distance(task);
   const double margin = measured ? settings_.margin : 0;
   if (!(margin < std::numeric_limits<double>::infinity()))
     return centre_offset(a, pose_a, b, pose_b);
-  const bool parted = start != nullptr && (measured ? start->plane.parts(pose_a, pose_b, margin)
-                                                    : start->plane.parts(pose_a, pose_b));
+  const bool parted = plane != nullptr && (measured ? plane->parts(pose_a, pose_b, margin)
+                                                    : plane->parts(pose_a, pose_b));
   if (!parted) {
     const CentreOffset offset = centre_offset(a, pose_a, b, pose_b);
     const bool apart = measured ? balls_are_apart_by(margin, offset, a, pose_a, b, pose_b)
@@ -90,9 +84,10 @@ template <class Scalar>
 template <class Scalar>
 void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
                              const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
-                             WarmStart* start, Outcome& outcome) {
+                             WarmStart* start, Outcome& outcome, bool plane_fails) {
+  const CarriedPlane* const plane = start == nullptr || plane_fails ? nullptr : &start->plane;
   const std::optional<CentreOffset> offset =
-      offset_unless_apart(a, pose_a, b, pose_b, task, start, outcome);
+      offset_unless_apart(a, pose_a, b, pose_b, task, plane, outcome);
   if (!offset) return;
   SupportPair<Scalar> pair(*offset, a, pose_a, b, pose_b);
   outcome.iterations = 0;

@@ -29,10 +29,12 @@ class GjkQuery {
 
   // Solves a pair of bounded bodies. A verdict is `ok` only if a bound proves it beyond rounding.
   // If the plane of `start` still parts the bodies, or if their bounding balls are apart, no
-  // iteration is made except for a distance; nor for that if they are by more than the margin. Starts from `start` unless it is null, and stores the
-  // result there.
+  // iteration is made except for a distance; nor for that if they are by more than the margin.
+  // Starts from `start` unless it is null, and stores the result there. `plane_fails`: its plane was
+  // tried, and does not part the bodies.
   void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
-             const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
+             const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome,
+             bool plane_fails = false);
 
   // Sets the functions for the next queries; they must fit the cores of those queries.
   void set_functions(const CoreFunctions<Scalar>& functions) { functions_ = functions; }
@@ -50,7 +52,7 @@ class GjkQuery {
 
   std::optional<CentreOffset> offset_unless_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
                                                   const SupportShape<Scalar>& b, const Pose& pose_b,
-                                                  Task task, const WarmStart* start,
+                                                  Task task, const CarriedPlane* plane,
                                                   Outcome& outcome) const;
   bool fast_gjk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const;
   GjkDistanceResult<Scalar> solve_pair(SupportPair<Scalar>& pair, Task task,

@@ -1,4 +1,5 @@
-// The memory of GJK for a pair of bodies, from one frame to the next. Used by gjk.
+// The memory of GJK for a pair of bodies, from one frame to the next. Used by gjk, gjk-lanes,
+// ellipsoid and smooth.
 //
 // Corners are stored by their indices, so that their points follow the bodies. Whatever the
 // indices, these are points of the difference, and a result from them is as right as from any other
@@ -35,6 +36,12 @@ struct WarmStart {
   template <class Scalar>
   void place(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex) const;
 };
+
+// Greatest distance of a point of the body from its origin, in metres.
+template <class Scalar>
+double radius_of(const SupportShape<Scalar>& shape) {
+  return shape.centre.norm() + shape.size + shape.radius;
+}
 
 // What the frame before left for a query.
 template <class Scalar>

@@ -20,6 +20,7 @@
 // Departs: the distance is searched among planes instead of points, so that it is exact to second
 //          order and a bound at every step; the same ascent finds depths. The least depth is proven
 //          by an inner ellipsoid or by branch and bound.
+// Warm:    the plane that parted a pair at a verdict, or instead of a depth (warm_planes).
 // Answers: sphere or ellipsoid with ellipsoid: all tasks.
 // Fails:   never answers `touching`; unknown / not_converged within 4e-15 (double) or 2e-6 (float)
 //          of touching, relative to the pair's size. Bodies without volume, or so thin that the
@@ -32,12 +33,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "algorithms/kernels/gjk/warm_start.h"
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_contact.h"
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_depth.h"
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_pair.h"
+#include "algorithms/warm_planes.h"
 
 namespace touchstone {
 namespace {
@@ -61,35 +65,80 @@ class EllipsoidPlanes final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
-      const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
-      const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
-      Outcome& outcome = outcomes[i];
-      outcome.iterations = 0;
-      outcome.support_calls = -1;
-      if (!asks_distance(task) && balls_are_apart(balls_[a], pose_a, balls_[b], pose_b)) {
-        outcome.answer = Answer::separated;
-        outcome.status = Status::ok;
-        continue;
-      }
-      if (has_margin_ && asks_distance(task) &&
-          balls_are_apart_by(margin_, balls_[a], pose_a, balls_[b], pose_b)) {
-        write_beyond(margin_, outcome);
-        continue;
-      }
-      const EllipsoidPair<Scalar> pair(shapes_[a], pose_a, shapes_[b], pose_b);
-      switch (task) {
-        case Task::intersect: decide(pair, outcome); break;
-        case Task::distance: solve_distance(pair, pose_a.translation, outcome); break;
-        case Task::penetration: solve_depth(pair, pose_a.translation, outcome); break;
-        case Task::signed_distance: solve_signed(pair, pose_a.translation, outcome); break;
-      }
+    if (!WarmPlanes::may_answer(task, batch, margin_)) {
+      for (std::size_t i = 0; i < batch.size(); ++i) solve_pair(task, batch, i, outcomes[i]);
+      return;
     }
+    for (const std::uint32_t i : planes_.answer(task, batch, false, outcomes, margin_)) {
+      if (const auto plane = solve_pair(task, batch, i, outcomes[i])) keep(*plane, batch, i);
+    }
+  }
+
+  void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
+    const bool warm = WarmPlanes::may_answer(task, batch, margin_);
+    if (warm && WarmPlanes::answer_alone(task, batch, i, outcome, margin_)) return;
+    const auto plane = solve_pair(task, batch, i, outcome);
+    if (warm && plane) keep(*plane, batch, i);
   }
 
  private:
   static constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
+
+  // A plane that parts a pair: a normal of about unit length, and a lower bound on the gap along it
+  // in metres.
+  struct Parting {
+    Vec3d normal;
+    double gap;
+  };
+
+  void keep(const Parting& plane, const PairBatch& batch, std::size_t i) const {
+    const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
+    WarmPlanes::keep(
+        CarriedPlane::make(plane.normal, plane.gap, radius_of(balls_[batch.pairs.shape_of[a]]),
+                           batch.pairs.poses[a], radius_of(balls_[batch.pairs.shape_of[b]]),
+                           batch.pairs.poses[b]),
+        batch, i);
+  }
+
+  static std::optional<Parting> parting(const EllipsoidPair<Scalar>& pair,
+                                        const EllipsoidPlane<Scalar>& plane) {
+    // The normal's length is off by rounding as well as the bound.
+    const Scalar gap = plane.gap - pair.radius - 2 * rounding;
+    if (!(gap > 0)) return {};
+    return Parting{plane.normal.template cast<double>(), pair.unit * static_cast<double>(gap)};
+  }
+
+  // Returns the plane that parts the bodies, if the verdict is made by one.
+  std::optional<Parting> solve_pair(Task task, const PairBatch& batch, std::size_t i,
+                                    Outcome& outcome) const {
+    const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
+    const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
+    const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
+    outcome.iterations = 0;
+    outcome.support_calls = -1;
+    if (!asks_distance(task) && balls_are_apart(balls_[a], pose_a, balls_[b], pose_b)) {
+      outcome.answer = Answer::separated;
+      outcome.status = Status::ok;
+      return {};
+    }
+    if (has_margin_ && asks_distance(task) &&
+        balls_are_apart_by(margin_, balls_[a], pose_a, balls_[b], pose_b)) {
+      write_beyond(margin_, outcome);
+      return {};
+    }
+    const EllipsoidPair<Scalar> pair(shapes_[a], pose_a, shapes_[b], pose_b);
+    switch (task) {
+      case Task::intersect: {
+        const Vec3<Scalar> normal = decide(pair, outcome);
+        if (outcome.answer != Answer::separated || batch.memory.empty()) return {};
+        return parting(pair, EllipsoidPlane<Scalar>(pair, normal));
+      }
+      case Task::distance: solve_distance(pair, pose_a.translation, outcome); break;
+      case Task::penetration: return solve_depth(pair, pose_a.translation, outcome);
+      case Task::signed_distance: solve_signed(pair, pose_a.translation, outcome); break;
+    }
+    return {};
+  }
 
   // Decides whether the bodies share a point. Returns a normal, which separates them if they do
   // not.
@@ -130,15 +179,17 @@ class EllipsoidPlanes final : public NarrowPhase {
     write_distance(pair, found.plane, origin, outcome);
   }
 
-  void solve_depth(const EllipsoidPair<Scalar>& pair, const Vec3d& origin, Outcome& outcome) const {
+  std::optional<Parting> solve_depth(const EllipsoidPair<Scalar>& pair, const Vec3d& origin,
+                                     Outcome& outcome) const {
     const Climb<Scalar> found = climb(pair, first_normal(pair), depth_goal(), tolerance_);
     outcome.iterations = found.iterations;
     if (found.end == ClimbEnd::apart) {
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;
-      return;
+      return parting(pair, found.plane);
     }
     solve_depth_from(pair, found, origin, outcome);
+    return {};
   }
 
   void solve_signed(const EllipsoidPair<Scalar>& pair, const Vec3d& origin,
@@ -236,6 +287,7 @@ class EllipsoidPlanes final : public NarrowPhase {
   int step_cap_, plane_cap_;
   std::span<const Shape> shapes_;
   std::vector<SupportShape<Scalar>> balls_;
+  WarmPlanes planes_;
 };
 
 bool takes(ShapeKind a, ShapeKind b, Task) {
@@ -256,6 +308,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_ellipsoid() {
            .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float32, Precision::float64},
            .supports = takes,
+           .traits = {.starts_warm = true},
            .tolerance = "the error of a distance, and half the gap between both bounds on a depth; "
                         "1e-12 (float 2e-6)",
            .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {

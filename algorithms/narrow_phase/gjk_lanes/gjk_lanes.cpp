@@ -2,7 +2,9 @@
 // Paper:   Gilbert, Johnson, Keerthi, IEEE J. Robotics and Automation 4(2), 1988; the nearest
 //          feature of a simplex: Ericson, "Real-Time Collision Detection", 2005, section 9.5; van
 //          den Bergen, GDC 2001, as in expanding_polytope.h.
-// Steps:   1. Load one pair per lane and rotate its bodies into the lane's frame (lane_start).
+// Steps:   0. With a memory, answer the pairs that the plane of the frame before still parts
+//             (warm_planes), but for distances.
+//          1. Load one pair per lane and rotate its bodies into the lane's frame (lane_start).
 //             Pairs whose bounding balls are apart are separated at once.
 //          2. Find the support point of every lane (lane_support).
 //          3. Add it to the lane's simplex and select the feature nearest to the origin, for
@@ -27,6 +29,8 @@
 //          own origin, bodies whose matrix is not close to a rotation, and without AVX2 all pairs
 //          in double (but for those verdicts), since two lanes per vector are slower than none.
 //          Verdicts are as reliable as gjk's. Near contact they are gjk's own, with its resolution.
+// Warm:    the plane that parted a pair, for verdicts and for depths of pairs that are apart; pairs
+//          that are solved one by one start as gjk's do.
 // Fails:   like gjk.
 // Cost:    like gjk's iterations; all lanes take as long as the slowest. It pays from batches of
 //          about four pairs. Depths take 0.4 to 0.7 of gjk's time in float and up to all of it in
@@ -34,12 +38,15 @@
 //          vertices is solved one by one from the start. A signed distance takes as long as all
 //          distances, and the depths of the pairs that overlap. Caps and tolerance are gjk's.
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <type_traits>
 
 #include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/gjk_lanes/lane_gjk.h"
 #include "algorithms/signed_by_two.h"
+#include "algorithms/warm_planes.h"
 
 namespace touchstone {
 namespace {
@@ -51,6 +58,8 @@ class GjkInLanes final : public NarrowPhase {
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<Scalar>(shapes);
+    radii_.clear();
+    for (const Body& shape : shapes_) radii_.push_back(radius_of(shape));
     lanes_.bind(shapes, shapes_);
     const auto is_curved = [](const Shape& shape) { return Lanes::is_curved(shape.kind); };
     if (std::is_same_v<Scalar, double> && std::ranges::any_of(shapes, is_curved)) {
@@ -62,24 +71,33 @@ class GjkInLanes final : public NarrowPhase {
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     if (task == Task::signed_distance) return signed_.solve(*this, batch, outcomes);
     left_.resize(std::max(left_.size(), batch.size()));
+    const bool warm = WarmPlanes::may_answer(task, batch);
+    const std::span<const std::uint32_t> places =
+        warm ? planes_.answer(task, batch, true, outcomes) : all_places(batch.size());
+    found_.clear();
     const bool curved = Lanes::is_curved(batch.kind_a) || Lanes::is_curved(batch.kind_b);
     const typename Lanes::Goal goal{.task = task,
                                     .tolerance = query_.tolerance(!curved),
                                     .most_iterations = settings_.gjk_cap,
-                                    .most_expansions = settings_.epa_cap};
-    const std::size_t count =
-        std::is_same_v<Scalar, double> && curved && task == Task::intersect
-            ? decide_in_floats_first(batch, goal, outcomes)
-            : lanes_.solve(batch.kind_a, batch.kind_b, batch.pairs, goal, outcomes, left_.data());
+                                    .most_expansions = settings_.epa_cap,
+                                    .directions = warm ? planes_.directions() : nullptr,
+                                    .planes = warm ? &found_ : nullptr};
+    const std::size_t count = std::is_same_v<Scalar, double> && curved && task == Task::intersect
+                                  ? decide_in_floats_first(batch, goal, places, outcomes)
+                                  : lanes_.solve(batch.kind_a, batch.kind_b, batch.pairs, goal,
+                                                 places, outcomes, left_.data());
     for (std::size_t k = 0; k < count; ++k) {
-      solve_serially(task, batch.pairs, left_[k], outcomes[left_[k]]);
+      solve_serially(task, batch, left_[k], warm, true, outcomes[left_[k]]);
     }
+    if (warm) keep_planes(batch, places, outcomes);
   }
 
-  // One curved pair fills too little of the lanes.
   void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
+    const bool warm = WarmPlanes::may_answer(task, batch);
+    if (warm && WarmPlanes::answer_alone(task, batch, i, outcome)) return;
     if (Lanes::is_curved(batch.kind_a) || Lanes::is_curved(batch.kind_b)) {
-      solve_serially(task, batch.pairs, i, outcome);
+      // One curved pair fills too little of the lanes.
+      solve_serially(task, batch, i, !batch.memory.empty(), warm, outcome);
     } else {
       NarrowPhase::solve_alone(task, batch, i, outcome);
     }
@@ -87,25 +105,69 @@ class GjkInLanes final : public NarrowPhase {
 
  private:
   using Lanes = GjkLanes<Scalar>;
+  using Body = SupportShape<Scalar>;
 
   // Verdicts of floats are proven for the same bodies, so doubles are for the pairs that floats leave
   // open. Returns the number of pairs in left_.
   std::size_t decide_in_floats_first(const PairBatch& batch, const typename Lanes::Goal& goal,
+                                     std::span<const std::uint32_t> places,
                                      std::span<Outcome> outcomes) {
     open_.resize(std::max(open_.size(), batch.size()));
     const std::size_t open =
         quick_.solve(batch.kind_a, batch.kind_b, batch.pairs,
                      {.task = Task::intersect,
-                      .most_iterations = std::min(most_quick_iterations, settings_.gjk_cap)},
-                     outcomes, open_.data());
-    return lanes_.solve_some(batch.kind_a, batch.kind_b, batch.pairs, goal, {open_.data(), open},
-                             outcomes, left_.data());
+                      .most_iterations = std::min(most_quick_iterations, settings_.gjk_cap),
+                      .planes = goal.planes},
+                     places, outcomes, open_.data());
+    return lanes_.solve(batch.kind_a, batch.kind_b, batch.pairs, goal, {open_.data(), open},
+                        outcomes, left_.data());
   }
 
-  void solve_serially(Task task, const BodyPairs& pairs, std::size_t i, Outcome& outcome) {
+  // 0, 1, 2... as places of a whole batch.
+  std::span<const std::uint32_t> all_places(std::size_t count) {
+    while (places_.size() < count) places_.push_back(static_cast<std::uint32_t>(places_.size()));
+    return {places_.data(), count};
+  }
+
+  // `plane_fails`: see GjkQuery.
+  void solve_serially(Task task, const PairBatch& batch, std::size_t i, bool warm, bool plane_fails,
+                      Outcome& outcome) {
+    const BodyPairs& pairs = batch.pairs;
     const std::uint32_t a = pairs.first[i], b = pairs.second[i];
+    WarmStart start;
+    if (warm) std::memcpy(&start, batch.memory[batch.memory_of[i]].bytes.data(), sizeof start);
     query_.solve(shapes_[pairs.shape_of[a]], pairs.poses[a], shapes_[pairs.shape_of[b]],
-                 pairs.poses[b], task, nullptr, outcome);
+                 pairs.poses[b], task, warm ? &start : nullptr, outcome, plane_fails);
+    if (warm) std::memcpy(batch.memory[batch.memory_of[i]].bytes.data(), &start, sizeof start);
+  }
+
+  // Keeps the planes that the lanes found, and, of pairs that needed no iteration, those across the
+  // line of centres.
+  void keep_planes(const PairBatch& batch, std::span<const std::uint32_t> places,
+                   std::span<const Outcome> outcomes) {
+    // These matrices lengthen no vector by more than this.
+    constexpr double greatest_stretch = 1.7465;
+    for (const std::uint32_t i : places) {
+      if (outcomes[i].answer != Answer::separated || outcomes[i].iterations != 0) continue;
+      const std::uint32_t a = batch.pairs.first[i], b = batch.pairs.second[i];
+      const Body& body_a = shapes_[batch.pairs.shape_of[a]];
+      const Body& body_b = shapes_[batch.pairs.shape_of[b]];
+      const Pose &pose_a = batch.pairs.poses[a], &pose_b = batch.pairs.poses[b];
+      if (!(pose_a.rotation.squaredNorm() < 3.05 && pose_b.rotation.squaredNorm() < 3.05)) continue;
+      const Vec3d offset = centre_offset(body_a, pose_a, body_b, pose_b).vector;
+      const double length = std::sqrt(offset.squaredNorm());
+      const double gap =
+          length - greatest_stretch * (body_a.size + body_a.radius + body_b.size + body_b.radius);
+      if (gap > 0) found_.push_back({i, offset / length, gap});
+    }
+    for (const LanePlane& plane : found_) {
+      const std::uint32_t a = batch.pairs.first[plane.place], b = batch.pairs.second[plane.place];
+      WarmPlanes::keep(
+          CarriedPlane::make(plane.normal, plane.gap, radii_[batch.pairs.shape_of[a]],
+                             batch.pairs.poses[a], radii_[batch.pairs.shape_of[b]],
+                             batch.pairs.poses[b]),
+          batch, plane.place);
+    }
   }
 
   // Floats that take longer mostly end in doubt.
@@ -114,13 +176,17 @@ class GjkInLanes final : public NarrowPhase {
   GjkQuerySettings settings_;
   GjkQuery<Scalar> query_;
   std::vector<SupportShape<Scalar>> shapes_;
+  std::vector<double> radii_;  // radius_of the shapes
   Lanes lanes_;
   SignedByTwo signed_;
+  WarmPlanes planes_;
   // For double: the same in floats.
   std::vector<SupportShape<float>> quick_shapes_;
   GjkLanes<float> quick_;
   // Scratch: the pairs that the lanes leave open, and those that the lanes of floats do.
   std::vector<std::uint32_t> left_, open_;
+  std::vector<std::uint32_t> places_;  // 0, 1, 2...
+  std::vector<LanePlane> found_;       // scratch: planes for the pairs' memories
 };
 
 std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
@@ -149,6 +215,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_gjk_lanes() {
            .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float32, Precision::float64},
            .supports = takes,
+           .traits = {.starts_warm = true},
            .tolerance = "the gap between both bounds on a distance or depth; what rounding allows",
            .make = make}};
 }

@@ -99,6 +99,32 @@ TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
   return lanes;
 }
 
+// Appends the planes that part the pairs of the given lanes. Their last search direction lies across
+// the newest support plane.
+template <class Scalar>
+TOUCHSTONE_TARGET void note_planes(const LaneState<Scalar>& state, unsigned lanes,
+                                   std::vector<LanePlane>& planes) {
+  constexpr std::size_t width = LaneState<Scalar>::width;
+  alignas(64) Scalar x[width], y[width], z[width], along[width], length[width], radius[width];
+  std::memcpy(x, &state.search.x, sizeof x);
+  std::memcpy(y, &state.search.y, sizeof y);
+  std::memcpy(z, &state.search.z, sizeof z);
+  std::memcpy(along, &state.plane, sizeof along);
+  std::memcpy(length, &state.length, sizeof length);
+  const auto radii = state.radius_a + state.radius_b;
+  std::memcpy(radius, &radii, sizeof radius);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    const double per_length = 1 / static_cast<double>(length[lane]);
+    // The length is off by rounding as well as the bound.
+    const double gap = static_cast<double>(along[lane]) * per_length -
+                       static_cast<double>(radius[lane] + 2 * lane_rounding<Scalar>);
+    planes.push_back({state.place[lane],
+                      {-x[lane] * per_length, -y[lane] * per_length, -z[lane] * per_length},
+                      state.unit[lane] * gap});
+  }
+}
+
 // Writes the answers of lanes that have ended, and the places of pairs without an answer to `left`.
 // Returns the new number of places in `left`.
 template <class Scalar, bool points>
@@ -108,6 +134,7 @@ TOUCHSTONE_TARGET std::size_t answer_lanes(const PairTable<Scalar>& table,
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
   unsigned apart = state.apart, inside = state.inside;
+  if (goal.planes != nullptr && apart != 0) note_planes<Scalar>(state, apart, *goal.planes);
   const unsigned with_points = !points ? 0 : goal.starts == nullptr ? apart : state.shallow;
   if ((with_points | state.shallow) != 0) {
     const Nearest<Scalar> nearest = find_nearest<Scalar, points>(state.simplex);

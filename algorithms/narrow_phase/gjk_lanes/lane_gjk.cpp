@@ -42,7 +42,9 @@ struct LaneGoal {
   bool round;             // a body has a radius
   bool centred;           // all centres are the origins of the bodies
   bool distances;
-  DepthStarts<Scalar>* starts;  // if depths are requested
+  const std::array<float, 4>* directions;  // as in GjkLanes::Goal
+  DepthStarts<Scalar>* starts;             // if depths are requested
+  std::vector<LanePlane>* planes;          // that part pairs; null if they are not wanted
   // Upper bound on the rounding error of a point of the difference, in the unit.
   Scalar corner_error;
   Scalar tolerance;
@@ -153,19 +155,8 @@ void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
 
 template <class Scalar>
 std::size_t GjkLanes<Scalar>::solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
-                                    const Goal& asked, std::span<Outcome> outcomes,
-                                    std::uint32_t* left) {
-  while (places_.size() < pairs.first.size()) {
-    places_.push_back(static_cast<std::uint32_t>(places_.size()));
-  }
-  const std::span<const std::uint32_t> places(places_.data(), pairs.first.size());
-  return solve_some(kind_a, kind_b, pairs, asked, places, outcomes, left);
-}
-
-template <class Scalar>
-std::size_t GjkLanes<Scalar>::solve_some(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
-                                         const Goal& asked, std::span<const std::uint32_t> places,
-                                         std::span<Outcome> outcomes, std::uint32_t* left) {
+                                    const Goal& asked, std::span<const std::uint32_t> places,
+                                    std::span<Outcome> outcomes, std::uint32_t* left) {
   const bool hull_a = kind_a == ShapeKind::hull, hull_b = kind_b == ShapeKind::hull;
   // Vertices are rotated in fours. A block has copies of the first vertex behind the last.
   const std::uint32_t vertices = (most_vertices_ + 3) / 4 * 4;
@@ -182,7 +173,9 @@ std::size_t GjkLanes<Scalar>::solve_some(ShapeKind kind_a, ShapeKind kind_b, con
                                 .round = kind_a <= ShapeKind::capsule,
                                 .centred = centred_,
                                 .distances = asked.task == Task::distance,
+                                .directions = asked.directions,
                                 .starts = asked.task == Task::penetration ? &starts_ : nullptr,
+                                .planes = asked.planes,
                                 .corner_error = is_curved(kind_a) || is_curved(kind_b)
                                                     ? CornerError<Scalar>::curved
                                                 : centred_ ? CornerError<Scalar>::centred

@@ -13,6 +13,7 @@
 // Includes core and kernels.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -54,6 +55,13 @@ struct DepthStarts {
   std::size_t count = 0;  // number of valid entries
 };
 
+// A plane that parts the pair at a place.
+struct LanePlane {
+  std::uint32_t place;
+  Vec3d normal;  // from a to b in the world: of about unit length
+  double gap;    // metres; a lower bound on the distance of the bodies along it
+};
+
 template <class Scalar>
 class GjkLanes {
  public:
@@ -70,15 +78,18 @@ class GjkLanes {
     Task task = Task::intersect;
     Scalar tolerance = 0;  // of distance and depth, in the unit of SupportPair
     int most_iterations = 0, most_expansions = 0;
+    // Unless null, by place: the direction from a to b in which the search begins, or zero to begin
+    // at the centres. Its length is 1/2 to 3.
+    const std::array<float, 4>* directions = nullptr;
+    // Unless null, the planes that parted pairs in an iteration are appended.
+    std::vector<LanePlane>* planes = nullptr;
   };
-  // Solves pairs of kinds that it takes. Writes outcomes, except for the pairs whose places it
-  // writes to `left`, which must have room for all. Returns the number of those.
+  // Solves the pairs at these places, which are of kinds that it takes. Writes outcomes, except for
+  // the pairs whose places it writes to `left`, which must have room for all and must not overlap
+  // `places`. Returns the number of those.
   std::size_t solve(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs, const Goal& asked,
-                    std::span<Outcome> outcomes, std::uint32_t* left);
-  // Solves the pairs at these places alone. `left` must not overlap `places`.
-  std::size_t solve_some(ShapeKind kind_a, ShapeKind kind_b, const BodyPairs& pairs,
-                         const Goal& asked, std::span<const std::uint32_t> places,
-                         std::span<Outcome> outcomes, std::uint32_t* left);
+                    std::span<const std::uint32_t> places, std::span<Outcome> outcomes,
+                    std::uint32_t* left);
 
  private:
   std::vector<LaneShape<Scalar>> shapes_;
@@ -87,7 +98,6 @@ class GjkLanes {
   bool all_fit_ = true;
   bool some_scan_ = false;
   bool centred_ = true;  // the centres of all shapes that fit are the origins of their bodies
-  std::vector<std::uint32_t> places_;  // 0, 1, 2...
   // Scratch: the places of pairs that fit, without and with scanned hulls.
   std::vector<std::uint32_t> turned_, scanned_;
   DepthStarts<Scalar> starts_;  // scratch

@@ -12,7 +12,7 @@ struct LaneState {
 
   // The loaded data, one quad per lane: numbers of the poses (see load_pair), sizes, and pointers
   // to vertices.
-  Quad<Scalar> poses[6][width], sizes[width], extents_a[width], extents_b[width];
+  Quad<Scalar> poses[6][width], sizes[width], directions[width], extents_a[width], extents_b[width];
   const hull_scan::VertexBlock<Scalar>*corners_a[width], *corners_b[width];
   std::uint32_t blocks_a[width], blocks_b[width];
   double unit[width];  // metres

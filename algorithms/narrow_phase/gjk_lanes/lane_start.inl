@@ -61,6 +61,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   state.unit[lane] = unit;
   state.place[lane] = place;
 
+  if (goal.directions != nullptr) {
+    Quad<float> direction;
+    std::memcpy(&direction, &goal.directions[place], sizeof direction);
+    state.directions[lane] = __builtin_convertvector(direction, Quad<Scalar>);
+  }
   Quad<double> numbers_a, numbers_b;
   std::memcpy(&numbers_a, a.numbers, sizeof numbers_a);
   std::memcpy(&numbers_b, b.numbers, sizeof numbers_b);
@@ -229,6 +234,13 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
   state.active |= fresh & usable;
   const auto set = Lanes::from_bits(fresh);
   Vector3<Scalar> search = scaled<Scalar>(-one, state.centre_b);
+  if (goal.directions != nullptr) {
+    Vector columns[4];
+    columns_of<Scalar>(state.directions, columns);
+    const Vector3<Scalar> known{-columns[0], -columns[1], -columns[2]};
+    const auto is_known = Lanes::less(Lanes::broadcast(Scalar(0.1)), dot<Scalar>(known, known));
+    search = select<Scalar>(is_known, known, search);
+  }
   Vector square = dot<Scalar>(search, search);
   const auto some = Lanes::less(Lanes::broadcast(shortest_square<Scalar>), square);
   search = select<Scalar>(some, search, {one, zero, zero});

@@ -15,6 +15,7 @@
 //          7. What is not proven is solved as `gjk` does.
 // Departs: the normal is searched where two ends of a body tie, or a disc is flat, too: active sets,
 //          with the balance of the tied points as their multipliers.
+// Warm:    the plane that parted a pair at a verdict, or instead of a depth (warm_planes).
 // Answers: spheres, capsules, cylinders, cones and ellipsoids with each other. Poses that are not
 //          rotations up to 1e-12, and depths and distances without curved bodies, or of a sphere and a
 //          cylinder or cone, are gjk's.
@@ -24,6 +25,7 @@
 //          Caps: 128 iterations of GJK, 64 points. Tolerance relative to the size: 1e-12.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -32,6 +34,7 @@
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/smooth/least_overlap.h"
 #include "algorithms/narrow_phase/smooth/quick_verdict.h"
+#include "algorithms/warm_planes.h"
 
 namespace touchstone {
 namespace {
@@ -54,23 +57,34 @@ class SmoothNormals final : public NarrowPhase {
   }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
-    if (task == Task::intersect) {
-      for (std::size_t i = 0; i < batch.size(); ++i) decide(batch.pairs, i, outcomes[i]);
+    if (WarmPlanes::may_answer(task, batch, settings_.margin)) {
+      for (const std::uint32_t i : planes_.answer(task, batch, false, outcomes, settings_.margin)) {
+        solve_warm(task, batch, i, outcomes[i]);
+      }
       return;
     }
-    for_each_bounded_pair(
-        task, batch, shapes_, ahead_, task == Task::distance, outcomes,
-        [&](std::size_t i, const auto&... bodies) { solve_pair(task, bodies..., outcomes[i]); });
+    if (task == Task::intersect) {
+      for (std::size_t i = 0; i < batch.size(); ++i) decide(batch.pairs, i, nullptr, outcomes[i]);
+      return;
+    }
+    for_each_bounded_pair(task, batch, shapes_, ahead_, task == Task::distance, outcomes,
+                          [&](std::size_t i, const auto&... bodies) {
+                            solve_pair(task, bodies..., nullptr, outcomes[i]);
+                          });
   }
 
   void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
-    if (task == Task::intersect) {
-      decide(batch.pairs, i, outcome);
-      return;
+    if (WarmPlanes::may_answer(task, batch, settings_.margin)) {
+      if (!WarmPlanes::answer_alone(task, batch, i, outcome, settings_.margin)) {
+        solve_warm(task, batch, i, outcome);
+      }
+    } else if (task == Task::intersect) {
+      decide(batch.pairs, i, nullptr, outcome);
+    } else {
+      for_bounded_pair(task, batch, i, shapes_, outcome, [&](std::size_t, const auto&... bodies) {
+        solve_pair(task, bodies..., nullptr, outcome);
+      });
     }
-    for_bounded_pair(task, batch, i, shapes_, outcome, [&](std::size_t, const auto&... bodies) {
-      solve_pair(task, bodies..., outcome);
-    });
   }
 
  private:
@@ -90,38 +104,58 @@ class SmoothNormals final : public NarrowPhase {
     double radius_a, radius_b;
   };
 
-  void decide(const BodyPairs& pairs, std::size_t i, Outcome& outcome) {
+  // Solves a pair whose plane was tried, and does not part it.
+  void solve_warm(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) {
+    PairMemory& memory = batch.memory[batch.memory_of[i]];
+    WarmStart start;
+    std::memcpy(&start, memory.bytes.data(), sizeof start);
+    if (task == Task::intersect) {
+      decide(batch.pairs, i, &start, outcome);
+    } else {
+      for_bounded_pair(task, batch, i, shapes_, outcome, [&](std::size_t, const auto&... bodies) {
+        solve_pair(task, bodies..., &start, outcome);
+      });
+    }
+    std::memcpy(memory.bytes.data(), &start, sizeof start);
+  }
+
+  // `start` is null or the pair's memory, whose plane does not part the pair.
+  void decide(const BodyPairs& pairs, std::size_t i, WarmStart* start, Outcome& outcome) {
     const std::uint32_t first = pairs.first[i], second = pairs.second[i];
     const std::uint32_t a = pairs.shape_of[first], b = pairs.shape_of[second];
     const Pose &pose_a = pairs.poses[first], &pose_b = pairs.poses[second];
-    if (is_rotation(pose_a.rotation) && is_rotation(pose_b.rotation)) {
-      const QuickVerdict quick = quick_verdict(round_[a], pose_a, round_[b], pose_b);
-      if (quick.answer != Answer::unknown) {
-        outcome.answer = quick.answer;
-        outcome.status = Status::ok;
-        outcome.iterations = outcome.support_calls = quick.planes;
-        return;
+    const QuickVerdict quick = quick_verdict(round_[a], pose_a, round_[b], pose_b);
+    if (quick.answer != Answer::unknown) {
+      outcome.answer = quick.answer;
+      outcome.status = Status::ok;
+      outcome.iterations = outcome.support_calls = quick.planes;
+      if (start != nullptr && quick.answer == Answer::separated) {
+        const double length = std::sqrt(quick.normal.squaredNorm());
+        start->plane =
+            CarriedPlane::make(quick.normal / length, quick.gap / length, radius_of(shapes_[a]),
+                               pose_a, radius_of(shapes_[b]), pose_b);
       }
+      return;
     }
-    query_.solve(shapes_[a], pose_a, shapes_[b], pose_b, Task::intersect, nullptr, outcome);
+    query_.solve(shapes_[a], pose_a, shapes_[b], pose_b, Task::intersect, start, outcome, true);
   }
 
   void solve_pair(Task task, const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b,
-                  Outcome& outcome) {
+                  WarmStart* start, Outcome& outcome) {
     // GJK ends between a point and a flat or ruled surface as soon.
     const bool curved = a.core == SupportCore::point ? b.core == SupportCore::ellipsoid
                                                      : !a.is_polytope() || !b.is_polytope();
     const bool apart = task == Task::penetration && balls_are_apart(a, pose_a, b, pose_b);
     if (curved && !apart && is_rotation(pose_a.rotation) && is_rotation(pose_b.rotation) &&
-        solve_curved(task, a, pose_a, b, pose_b, outcome)) {
+        solve_curved(task, a, pose_a, b, pose_b, start, outcome)) {
       return;
     }
-    query_.solve(a, pose_a, b, pose_b, task, nullptr, outcome);
+    query_.solve(a, pose_a, b, pose_b, task, start, outcome, true);
   }
 
   // Returns false if the answer is gjk's to find.
   bool solve_curved(Task task, const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b,
-                    Outcome& outcome) {
+                    WarmStart* start, Outcome& outcome) {
     using End = GjkDistanceResult<double>::End;
     constexpr double coarse = 0.3;
     const auto core_of = [&](const Body& body) -> const Body& {
@@ -144,6 +178,11 @@ class SmoothNormals final : public NarrowPhase {
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;
       outcome.support_calls = pair.support_calls();
+      if (start != nullptr) {
+        // The normal's length is off by rounding as well as the bound.
+        start->plane = CarriedPlane::make(found.direction, pair.unit() * (lower - 2 * rounding),
+                                          radius_of(a), pose_a, radius_of(b), pose_b);
+      }
       return true;
     }
     return solve_apart(task, cores, -found.nearest.direction, outcome);
@@ -206,6 +245,7 @@ class SmoothNormals final : public NarrowPhase {
   std::vector<Body> shapes_, cores_;
   std::vector<RoundShape> round_;
   ShapePrefetch<double> ahead_;
+  WarmPlanes planes_;
 };
 
 bool takes(ShapeKind a, ShapeKind b, Task) {
@@ -238,6 +278,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_smooth() {
            .tasks = {Task::intersect, Task::distance, Task::penetration},
            .scalars = {Precision::float64},
            .supports = takes,
+           .traits = {.starts_warm = true},
            .tolerance =
                "the gap between both bounds on a distance or depth; 1e-12, and gjk's 1e-10 "
                "where it answers",

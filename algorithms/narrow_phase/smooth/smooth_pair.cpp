@@ -22,9 +22,12 @@ SmoothCore::SmoothCore(const PosedShape<double>& body, double unit, bool mirrore
 }
 
 bool is_rotation(const Mat3d& m) {
-  const Mat3d square = m.transpose() * m - Mat3d::Identity();
-  // This form of the comparison is false for NaN.
-  return square.cwiseAbs().maxCoeff() < 1e-12;
+  constexpr double most = 1e-12;
+  const Vec3d x = m.col(0), y = m.col(1), z = m.col(2);
+  // This form of the comparisons is false for NaN.
+  return std::abs(x.dot(x) - 1) < most && std::abs(y.dot(y) - 1) < most &&
+         std::abs(z.dot(z) - 1) < most && std::abs(x.dot(y)) < most && std::abs(y.dot(z)) < most &&
+         std::abs(z.dot(x)) < most;
 }
 
 }  // namespace touchstone

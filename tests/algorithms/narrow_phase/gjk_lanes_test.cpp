@@ -217,7 +217,8 @@ void expect_few_left() {
       GjkLanes<Scalar> lanes;
       lanes.bind(pairs.shapes, shapes);
       std::vector<Outcome> outcomes(pairs.size());
-      std::vector<std::uint32_t> left(pairs.size());
+      std::vector<std::uint32_t> places(pairs.size()), left(pairs.size());
+      std::iota(places.begin(), places.end(), 0u);
       for (const Task task : {Task::intersect, Task::distance, Task::penetration}) {
         const std::size_t count =
             lanes.solve(kinds.a, kinds.b, {pairs.first, pairs.second, pairs.shape_of, pairs.poses},
@@ -225,7 +226,7 @@ void expect_few_left() {
                          .tolerance = 16 * std::numeric_limits<Scalar>::epsilon(),
                          .most_iterations = 128,
                          .most_expansions = 256},
-                        outcomes, left.data());
+                        places, outcomes, left.data());
         EXPECT_LE(count, pairs.size() / 20)
             << name(kinds, Precision::float64, task, sort) << " of " << sizeof(Scalar) << " bytes";
         const auto common = std::ranges::count(outcomes, Answer::overlapping, &Outcome::answer);
