@@ -30,8 +30,8 @@ struct PlaneTable {
 struct PlaneRest {
   std::uint32_t* left;  // their places in order, with room for all
   // Unless null, with room for all pairs: where to look for a plane between pair i of them, which is
-  // the carried normal from a to b in the world, of length 1/2 to 3, or zero if there is none. The
-  // fourth number is zero.
+  // the carried normal from a to b in the world, of length 1/2 to 3, or zero if there is none, and
+  // maybe if it is not to be believed. The fourth number is zero.
   std::array<float, 4>* directions;
 };
 

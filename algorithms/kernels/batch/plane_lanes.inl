@@ -129,11 +129,13 @@ TOUCHSTONE_TARGET std::size_t part_pairs(const PlaneTable& table, Outcome* outco
     const std::size_t end = std::min(begin + width, size);
     const unsigned parted = parted_lanes(table, bodies, begin, end, rest.directions);
     for (std::size_t i = begin; i < end; ++i) {
-      if ((parted >> (i - begin) & 1) != 0 && plane_of(table, i).is_own()) {
+      const bool parts = (parted >> (i - begin) & 1) != 0;
+      if (parts && plane_of(table, i).is_own()) {
         write_parted(outcomes[i]);
-      } else {
-        rest.left[count++] = static_cast<std::uint32_t>(i);
+        continue;
       }
+      rest.left[count++] = static_cast<std::uint32_t>(i);
+      if (parts && rest.directions != nullptr) rest.directions[i] = {};
     }
   }
   return count;

@@ -143,8 +143,9 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
       return found;
     }
   }
-  const bool may_switch = goal.momentum == Momentum::where_it_pays && pair.is_smooth();
-  if (goal.momentum != Momentum::nesterov && !may_switch && !goal.duality_gap &&
+  // The fast iteration makes more steps in less time; what it leaves open goes on with momentum.
+  bool may_switch = goal.momentum == Momentum::where_it_pays && pair.is_smooth();
+  if (goal.momentum != Momentum::nesterov && !goal.duality_gap &&
       run_fast_gjk<Cores>(pair, goal, begin, last != nullptr, found)) {
     return found;
   }
@@ -159,8 +160,9 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
   constexpr Scalar near = 0.5;
   while (found.iterations < goal.most_iterations) {
     ++found.iterations;
-    if (may_switch && found.iterations == 2 && found.upper - radius < near) {
-      accelerated = true;
+    if (may_switch && found.iterations >= 2) {
+      may_switch = false;
+      accelerated = found.upper - radius < near;
       nesterov = {false, found.nearest.distance * found.nearest.direction};
     }
     const DifferencePoint<Scalar> point = Cores::support(pair, direction);

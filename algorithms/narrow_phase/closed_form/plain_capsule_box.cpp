@@ -139,23 +139,6 @@ bool solve_at(Task task, double margin, double t, const CapsuleBox& pair, double
          (asks_depth(task) && solve_depth(pair, radius, pose_a, h, size + radius, outcome));
 }
 
-// Returns true if a face of the box parts the bodies: the reach of each along its normal is known.
-bool face_parts(const CapsuleBox& pair, double radius, const Vec3d& h) {
-  const auto gap_at = [](double at, double step, double half) {
-    return std::abs(at) - std::abs(step) - half;
-  };
-  const double gap =
-      std::max(std::max(gap_at(pair.q.x, pair.d.x, h[0]), gap_at(pair.q.y, pair.d.y, h[1])),
-               gap_at(pair.q.z, pair.d.z, h[2])) -
-      radius;
-  // The bodies' coordinates, and so the bodies, are off by no more than in a depth.
-  const double size = std::abs(pair.q.x) + std::abs(pair.q.y) + std::abs(pair.q.z) +
-                      std::abs(pair.d.x) + std::abs(pair.d.y) + std::abs(pair.d.z) + h.sum() +
-                      radius;
-  return gap > 2 * (rounding + 8 * greatest_skew) * size && size > 1e-120 && size < 1e120 &&
-         is_rotation(pair.x, pair.y, pair.z);
-}
-
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/narrow_phase/closed_form/plain_capsule_box.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 

@@ -54,11 +54,7 @@ TOUCHSTONE_TARGET bool solve_capsule_box(Task task, const Shape& capsule, const 
             z = column(pose_b.rotation, 2);
   const Vec q{-dot(x, centre), -dot(y, centre), -dot(z, centre)};
   const Vec d{dot(x, half), dot(y, half), dot(z, half)};
-  const CapsuleBox pair{centre, half, x, y, z, q, d};
-  if (!asks_distance(task) && face_parts(pair, capsule.radius, box.half_extents)) {
-    write(Answer::separated, outcome);
-    return true;
-  }
   const double t = nearest_to_box(q, d, box.half_extents);
-  return solve_at(task, margin, t, pair, capsule.radius, pose_a, box.half_extents, outcome);
+  return solve_at(task, margin, t, {centre, half, x, y, z, q, d}, capsule.radius, pose_a,
+                  box.half_extents, outcome);
 }

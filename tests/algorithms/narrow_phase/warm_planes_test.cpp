@@ -111,6 +111,7 @@ TEST(PlaneLanes, SayWhatOnePlaneSays) {
         EXPECT_EQ(left[k++], i);
         const Vec3d expected = planes[i].normal(a, b);
         const Vec3d direction(directions[i][0], directions[i][1], directions[i][2]);
+        if (!planes[i].is_own() && direction.isZero(0)) continue;
         if (expected.isZero(0)) {
           EXPECT_TRUE(direction.isZero(0));
         } else {

@@ -153,7 +153,7 @@ Tally play(const NarrowPhaseEntry& entry, Precision scalar, Task task,
     cold->bind(pair.shapes);
     warm->bind(pair.shapes);
     const oracle::Solid a(pair.shapes[0]), b(pair.shapes[1]);
-    for (int frame = 0; frame < drawn(60, 15); ++frame) {
+    for (int frame = 0; frame < drawn(30, 15); ++frame) {
       move(random, frame, pair);
       disturb(random, pair.memory);
       const std::string what = pair.name + ", frame " + std::to_string(frame);
