@@ -5,7 +5,7 @@
 // Steps:   1. A half-space takes one support point (kernels/minkowski/halfspace).
 //          2. Pairs whose bounding balls are apart are separated (not for distance).
 //          3. With a memory, try the last separating plane before anything else, as both bodies
-//             carry it (kernels/gjk/carried_plane), for all pairs of a batch in lanes (warm_planes);
+//             carry it (kernels/gjk/carried_plane), for all pairs of a batch in lanes (kernels/batch/warm_planes);
 //             then the last tetrahedron, plane or simplex
 //             (kernels/gjk/warm_start).
 //          4. Iterate fast with plain products (kernels/gjk/gjk_iteration); between polytopes its
@@ -26,7 +26,8 @@
 //          "Collision detection accelerated: an optimization perspective", RSS 2022, algorithm 3;
 //          its normalised form if a core has corners) until that makes no progress, and continues
 //          as plain GJK. gjk-switched does so only between bodies without corners that are less
-//          than about their size apart.
+//          than about their size apart, where the fast iteration leaves them open, or with a duality
+//          gap.
 // Answers: `touching`, with bounds on the signed distance for every task, if the bounds enclose
 //          zero and are at most 2.9e-14 (double) or 1.6e-5 (float) of the pair's unit apart, which
 //          is at most twice its size (kernels/minkowski/resolution).
@@ -45,9 +46,9 @@
 #include <type_traits>
 
 #include "algorithms/kernels/batch/for_each_pair.h"
+#include "algorithms/kernels/batch/warm_planes.h"
 #include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/narrow_phase.h"
-#include "algorithms/warm_planes.h"
 
 namespace touchstone {
 namespace {

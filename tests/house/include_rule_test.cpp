@@ -63,7 +63,7 @@ bool is_contract(const std::string& path) {
       "concave_phase",    "cast",         "ccd",
       "encoding",         "limit",        "algorithm_info",
       "broad_phase_work", "pair_query",   "signed_by_two",
-      "within_margin",    "warm_planes"};
+      "within_margin"};
   return path.starts_with("algorithms/") && path.ends_with(".h") &&
          contracts.contains(path.substr(11, path.size() - 13));
 }

@@ -35,13 +35,13 @@
 #include <limits>
 #include <optional>
 
+#include "algorithms/kernels/batch/warm_planes.h"
 #include "algorithms/kernels/gjk/warm_start.h"
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_contact.h"
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_depth.h"
 #include "algorithms/narrow_phase/ellipsoid/ellipsoid_pair.h"
-#include "algorithms/warm_planes.h"
 
 namespace touchstone {
 namespace {

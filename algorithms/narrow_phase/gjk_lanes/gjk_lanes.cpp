@@ -42,11 +42,11 @@
 #include <cstring>
 #include <type_traits>
 
+#include "algorithms/kernels/batch/warm_planes.h"
 #include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/gjk_lanes/lane_gjk.h"
 #include "algorithms/signed_by_two.h"
-#include "algorithms/warm_planes.h"
 
 namespace touchstone {
 namespace {
@@ -162,11 +162,10 @@ class GjkInLanes final : public NarrowPhase {
     }
     for (const LanePlane& plane : found_) {
       const std::uint32_t a = batch.pairs.first[plane.place], b = batch.pairs.second[plane.place];
-      WarmPlanes::keep(
-          CarriedPlane::make(plane.normal, plane.gap, radii_[batch.pairs.shape_of[a]],
-                             batch.pairs.poses[a], radii_[batch.pairs.shape_of[b]],
-                             batch.pairs.poses[b]),
-          batch, plane.place);
+      WarmPlanes::keep(CarriedPlane::make(plane.normal, plane.gap, radii_[batch.pairs.shape_of[a]],
+                                          batch.pairs.poses[a], radii_[batch.pairs.shape_of[b]],
+                                          batch.pairs.poses[b]),
+                       batch, plane.place);
     }
   }
 

@@ -30,11 +30,11 @@
 #include <optional>
 
 #include "algorithms/kernels/batch/for_each_pair.h"
+#include "algorithms/kernels/batch/warm_planes.h"
 #include "algorithms/kernels/gjk/gjk_query.h"
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/smooth/least_overlap.h"
 #include "algorithms/narrow_phase/smooth/quick_verdict.h"
-#include "algorithms/warm_planes.h"
 
 namespace touchstone {
 namespace {

@@ -1,6 +1,6 @@
 // The first step of a warm start: the pairs of a batch whose last separating plane still parts them
-// are answered together, before a shape is read. Narrow phases whose PairMemory begins with a
-// CarriedPlane include this.
+// are answered together, before a shape is read. Used by gjk, gjk-lanes, ellipsoid and smooth, whose
+// PairMemory begins with a CarriedPlane. `Batch` is a narrow phase's PairBatch.
 #pragma once
 
 #include <algorithm>
@@ -12,40 +12,44 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/core/outcome.h"
+#include "algorithms/core/shape.h"
 #include "algorithms/kernels/batch/plane_lanes.h"
 #include "algorithms/kernels/gjk/carried_plane.h"
-#include "algorithms/narrow_phase.h"
 
 namespace touchstone {
 
 class WarmPlanes {
  public:
-  static_assert(sizeof(PairMemory) == PlaneTable::memory_bytes);
-
   // Whether planes can answer pairs of the batch: it has memory, bounded bodies, and needs no
   // distance of bodies that are apart by more than `margin` (metres).
-  static bool may_answer(Task task, const PairBatch& batch, double margin = no_margin) {
+  template <class Batch>
+  static bool may_answer(Task task, const Batch& batch, double margin = no_margin) {
     return !batch.memory.empty() && batch.kind_b != ShapeKind::halfspace &&
            (!asks_distance(task) || margin < no_margin);
   }
 
   // Writes the outcomes of the pairs that are parted. Returns the places of the others, which are
   // valid until the next call. `directs`: for others, `directions` is wanted.
-  std::span<const std::uint32_t> answer(Task task, const PairBatch& batch, bool directs,
+  template <class Batch>
+  std::span<const std::uint32_t> answer(Task task, const Batch& batch, bool directs,
                                         std::span<Outcome> outcomes, double margin = no_margin);
 
   // For the places of those others, where to look for a plane (PlaneRest).
   const std::array<float, 4>* directions() const { return directions_.data(); }
 
   // Does so for pair i alone, of a batch that planes may answer; false if it is not parted.
-  static bool answer_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome,
+  template <class Batch>
+  static bool answer_alone(Task task, const Batch& batch, std::size_t i, Outcome& outcome,
                            double margin = no_margin);
 
   // The batch of those others. Its pair k is the pair at place k of theirs.
-  PairBatch others(const PairBatch& batch);
+  template <class Batch>
+  Batch others(const Batch& batch);
 
   // Stores a plane at the begin of the memory of pair i.
-  static void keep(const CarriedPlane& plane, const PairBatch& batch, std::size_t i) {
+  template <class Batch>
+  static void keep(const CarriedPlane& plane, const Batch& batch, std::size_t i) {
     std::memcpy(batch.memory[batch.memory_of[i]].bytes.data(), &plane, sizeof plane);
   }
 
@@ -58,9 +62,10 @@ class WarmPlanes {
   std::vector<std::uint32_t> first_, second_, memory_of_;  // of `others`
 };
 
-inline std::span<const std::uint32_t> WarmPlanes::answer(Task task, const PairBatch& batch,
-                                                         bool directs, std::span<Outcome> outcomes,
-                                                         double margin) {
+template <class Batch>
+std::span<const std::uint32_t> WarmPlanes::answer(Task task, const Batch& batch, bool directs,
+                                                  std::span<Outcome> outcomes, double margin) {
+  static_assert(sizeof batch.memory[0] == PlaneTable::memory_bytes);
   left_.resize(std::max(left_.size(), batch.size()));
   if (directs) directions_.resize(left_.size());
   const bool measured = asks_distance(task);
@@ -83,8 +88,9 @@ inline std::span<const std::uint32_t> WarmPlanes::answer(Task task, const PairBa
   return {left_.data(), left_count_};
 }
 
-inline bool WarmPlanes::answer_alone(Task task, const PairBatch& batch, std::size_t i,
-                                     Outcome& outcome, double margin) {
+template <class Batch>
+bool WarmPlanes::answer_alone(Task task, const Batch& batch, std::size_t i, Outcome& outcome,
+                              double margin) {
   CarriedPlane plane;
   std::memcpy(&plane, batch.memory[batch.memory_of[i]].bytes.data(), sizeof plane);
   const bool measured = asks_distance(task);
@@ -99,7 +105,8 @@ inline bool WarmPlanes::answer_alone(Task task, const PairBatch& batch, std::siz
   return true;
 }
 
-inline PairBatch WarmPlanes::others(const PairBatch& batch) {
+template <class Batch>
+Batch WarmPlanes::others(const Batch& batch) {
   first_.clear();
   second_.clear();
   memory_of_.clear();
@@ -108,7 +115,7 @@ inline PairBatch WarmPlanes::others(const PairBatch& batch) {
     second_.push_back(batch.pairs.second[left_[k]]);
     memory_of_.push_back(batch.memory_of[left_[k]]);
   }
-  PairBatch others = batch;
+  Batch others = batch;
   others.pairs.first = first_;
   others.pairs.second = second_;
   others.memory_of = memory_of_;
