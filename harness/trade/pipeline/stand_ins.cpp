@@ -196,11 +196,15 @@ std::vector<proxies::RepresentationError> StandInLibrary::errors(
       const geometry::Mesh* mesh = frames_->mesh_of[shape];
       // The given shape represents itself, unless there is a mesh, whose hull it is.
       if (representation.form != proxies::Form::as_given || mesh != nullptr) {
-        one.error = representing_.error(scene.shapes[shape], mesh, one.stand_in->parts);
+        try {
+          one.error = representing_.error(scene.shapes[shape], mesh, one.stand_in->parts);
+        } catch (const base::InputError&) {
+          one.is_measured = false;
+        }
       }
       one.has_error = true;
     }
-    errors.push_back(one.error);
+    if (one.is_measured) errors.push_back(one.error);
   }
   return errors;
 }

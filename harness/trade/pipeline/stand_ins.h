@@ -75,7 +75,8 @@ class StandInLibrary {
   // cannot be represented so.
   std::shared_ptr<const StandIns> get(const Representations& representations);
   // Errors of the representations of all bodies, or of about 48, evenly picked; half-spaces, which
-  // have no size, are left out.
+  // have no size, are left out, and so are bodies with a part so thin that the faces of its hull are
+  // not known.
   std::vector<proxies::RepresentationError> errors(const Representations& representations);
   // The time to make them, in seconds.
   double seconds(const Representations& representations) const;
@@ -88,6 +89,7 @@ class StandInLibrary {
     std::string fault;
     double seconds = 0;
     bool has_error = false;
+    bool is_measured = true;  // false if its error cannot be measured
     proxies::RepresentationError error;
   };
   using Key = std::pair<std::uint32_t, std::string>;  // shape, representation
