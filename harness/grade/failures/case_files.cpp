@@ -32,7 +32,10 @@ void CaseFiles::close() {
 void remove_case_files(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".jsonl") std::filesystem::remove(entry.path());
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".jsonl" || ending == ".off" || ending == ".csv") {
+      std::filesystem::remove(entry.path());
+    }
   }
 }
 

@@ -58,7 +58,8 @@ void expect_true(const CastEntry& entry, const MovingPairCase& c, const CastOutc
     EXPECT_GE(outcome.upper, outcome.lower) << who;
     EXPECT_TRUE(c.hit) << who << ": contact is said to be proven";
   }
-  if (!c.hit || std::isnan(c.toi)) return;
+  // What only grazes by construction may be touched later, for an exact answer.
+  if (!c.hit || std::isnan(c.toi) || !sure) return;
   EXPECT_LE(outcome.lower, c.toi + c.doubt) << who;
   EXPECT_LE(outcome.toi, c.toi + c.doubt) << who;
   if (!std::isnan(outcome.upper)) {
