@@ -8,6 +8,14 @@
 namespace touchstone {
 namespace {
 
+// The ball around a core is a ball in the world, whatever the rotation does to the core. In the part's
+// frame it is an ellipsoid, whose points are off from the ball by less than this part of the radius.
+double skew_of(const Mat3d& rotation) {
+  const Mat3d squares = rotation.transpose() * rotation;
+  return (squares - Mat3d::Identity()).cwiseAbs().rowwise().sum().maxCoeff() + 0x1p-50;
+}
+constexpr double greatest_skew = 0.1;
+
 // The triangles of the bits.
 std::span<const std::uint32_t> chosen(std::span<const std::uint32_t> leaf, unsigned bits,
                                       std::array<std::uint32_t, WideBvh::leaf_size>& room) {
@@ -66,14 +74,18 @@ bool ConvexSearch::find(const PlacedConcave& parts, const PlacedConcave& mesh, c
       place.error += 2 * parts.pose.rotation.cwiseAbs().rowwise().sum().maxCoeff() * given.rounding;
     }
     const CommonFrame frame = common_frame(place.pose, part.reach, mesh.pose, reach);
-    if (!frame.is_of_a) return false;
-    placed_.push_back({&part, frame.b, frame.error + 2 * place.error});
+    const double skew = skew_of(place.pose.rotation);
+    const bool is_round = part.convex.radius > 0;
+    if (!frame.is_of_a || (is_round && !(skew <= greatest_skew))) return false;
+    placed_.push_back({&part, frame.b,
+                       frame.error + 2 * place.error + (is_round ? skew * part.convex.radius : 0)});
   }
   const MeshTree& tree = (*trees_)[mesh.body];
   for (std::uint32_t i = 0; i < placed_.size(); ++i) {
     const auto& [part, map, error] = placed_[i];
     const LaneConvex& convex = part->convex;
-    const SearchBox box = search_box(convex.low, convex.high, convex.radius, map, error, reach);
+    const double radius = convex.radius > 0 ? convex.radius + error : 0;
+    const SearchBox box = search_box(convex.low, convex.high, radius, map, error, reach);
     LeafTest test{tree, convex, map, error, i, take};
     const bool all = search_.run(
         tree.tree, box,
