@@ -7,7 +7,6 @@
 #include "algorithms/core/bounds.h"
 #include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/core/mesh/placed_box.h"
-#include "algorithms/core/nearest_float.h"
 #include "algorithms/hull/convex_hull.h"
 #include "harness/geometry/mesh_mass.h"
 #include "harness/geometry/shapes/compound.h"
