@@ -8,7 +8,7 @@
 namespace touchstone::scene {
 namespace {
 
-double width(const Aabb& box, std::size_t axis) {
+double extent(const Aabb& box, std::size_t axis) {
   return static_cast<double>(box.max[axis]) - static_cast<double>(box.min[axis]);
 }
 
@@ -26,8 +26,8 @@ Generated make_chain(GeneratorInput& input) {
   const std::vector<Aabb> boxes = boxes_at_origin(scene);
   double pitch = 0, across = 0;
   for (const Aabb& box : boxes) {
-    pitch = std::max(pitch, (width(box, 0) - 2 * width(box, 2)) * (1 - slack));
-    across = std::max({across, width(box, 1), width(box, 2)});
+    pitch = std::max(pitch, (extent(box, 0) - 2 * extent(box, 2)) * (1 - slack));
+    across = std::max({across, extent(box, 1), extent(box, 2)});
   }
   if (!(pitch > 0)) {
     input.table.fail("shapes",
