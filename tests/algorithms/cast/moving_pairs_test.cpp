@@ -11,15 +11,15 @@
 #include "algorithms/kernels/motion/moving_boxes.h"
 #include "algorithms/moving_pairs.h"
 #include "algorithms/registry.h"
+#include "harness/families/draws.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/random.h"
 
 namespace touchstone {
 namespace {
 
 // Unit cubes that move by up to `motion`, spread so that each overlaps about one at rest.
 std::vector<MovingBox> cubes(std::size_t count, double motion, unsigned seed) {
-  reference::Random random(seed);
+  families::RandomDraws random(seed);
   const double side = std::cbrt(8.0 * static_cast<double>(count));
   std::vector<MovingBox> bodies(count);
   for (MovingBox& body : bodies) {

@@ -12,8 +12,9 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "algorithms/registry.h"
+#include "harness/families/meshes.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/ray_cast/meshes.h"
+#include "tests/algorithms/random.h"
 
 namespace touchstone {
 namespace {
@@ -173,7 +174,7 @@ TEST(SceneRayCasts, AtWholeScenesAreAsTheOracleSays) {
   bodies.back().body.parts[0].shape.offset = -9;
   bodies.emplace_back();  // without parts
   SceneBody mesh;
-  mesh.body.mesh = std::make_shared<TriangleMesh>(reference::ellipsoid_mesh({1, 2, 1}, 8, 6));
+  mesh.body.mesh = std::make_shared<TriangleMesh>(families::ellipsoid_mesh({1, 2, 1}, 8, 6));
   mesh.pose = pose_of(random);
   bodies.push_back(mesh);
   SceneOutcomes outcomes;
