@@ -25,18 +25,48 @@ namespace {
 
 using ray_tree::RayMesh;
 
-// Every point that it considers is one of the triangle, but for rounding.
-Vec3d closest_of(const Vec3d& p, const RayMesh::Corners& corners) {
-  const auto& [a, b, c] = corners;
-  const Vec3d ab = b - a, ac = c - a, to = p - a;
+// The point of the triangle's plane that is nearest to p is a + v ab + w ac.
+struct Weights {
+  double v, w;
+
+  bool inside() const { return v > 0 && w > 0 && v + w < 1; }
+};
+// `to` is p - a; the normal is ab x ac, and its square is not zero.
+Weights weights_of(const Vec3d& to, const Vec3d& ab, const Vec3d& ac, const Vec3d& normal,
+                   double square) {
+  return {to.cross(ac).dot(normal) / square, ab.cross(to).dot(normal) / square};
+}
+
+// The nearest point of the plane, if it is in the triangle. The normal of a thin triangle is off by a
+// part of itself, about the rounding over the sine of its angle at a, and the weights with it. What is
+// left of p - a gives their correction, which is off by the same part of itself.
+std::optional<Vec3d> closest_inside(const Vec3d& p, const Vec3d& a, const Vec3d& ab,
+                                    const Vec3d& ac, bool& thin) {
   const Vec3d normal = ab.cross(ac);
   const double square = normal.squaredNorm();
-  if (square > 0) {
-    const double v = to.cross(ac).dot(normal) / square, w = ab.cross(to).dot(normal) / square;
-    if (v > 0 && w > 0 && v + w < 1) return a + v * ab + w * ac;
+  thin = !(square > 0.01 * ab.squaredNorm() * ac.squaredNorm());
+  if (!(square > 0)) return std::nullopt;
+  Weights weights = weights_of(p - a, ab, ac, normal, square);
+  constexpr int most_corrections = 8;
+  for (int i = 0; thin && i < most_corrections; ++i) {
+    const Vec3d left = p - (a + weights.v * ab + weights.w * ac);
+    const auto [v, w] = weights_of(left, ab, ac, normal, square);
+    weights = {weights.v + v, weights.w + w};
+    if (std::abs(v) + std::abs(w) < 0x1p-52) break;
   }
-  Vec3d best = a;
-  double least = to.squaredNorm();
+  if (!weights.inside()) return std::nullopt;
+  return a + weights.v * ab + weights.w * ac;
+}
+
+// Every point that it considers is one of the triangle, but for rounding. Of a triangle so thin that its
+// normal is nothing but rounding, the point inside may be any, and an edge's is near enough.
+Vec3d closest_of(const Vec3d& p, const RayMesh::Corners& corners) {
+  const auto& [a, b, c] = corners;
+  bool thin = false;
+  const std::optional<Vec3d> inside = closest_inside(p, a, b - a, c - a, thin);
+  if (inside && !thin) return *inside;
+  Vec3d best = inside.value_or(a);
+  double least = (p - best).squaredNorm();
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d &from = corners[k], &end = corners[(k + 1) % 3];
     const Vec3d edge = end - from;

@@ -78,9 +78,7 @@ TEST(PointQueries, FindTheClosestPoint) {
         for (const std::uint32_t k : mesh.triangles[found[i].triangle]) {
           size = std::max(size, mesh.vertices[k].norm());
         }
-        // Of a triangle that is a segment but for rounding, the point may be of the wrong place along it.
-        const double margin = name == "shifted doubles" ? 4e-12 : 4e-15;
-        ASSERT_NEAR(found[i].distance, exact[i].distance, margin * size) << i;
+        ASSERT_NEAR(found[i].distance, exact[i].distance, 4e-15 * size) << i;
         ASSERT_NEAR((points[i] - found[i].closest).norm(), found[i].distance, 1e-15 * size);
         TriangleMesh one{mesh.vertices, {mesh.triangles[found[i].triangle]}};
         ASSERT_NEAR(
