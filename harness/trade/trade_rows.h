@@ -25,7 +25,8 @@ void columns(Names& names, Visit& visit) {
   visit("representation", names.representation, "What stands for the bodies.");
   visit("boxes", names.boxes, "Kind of boxes; empty without a broad phase.");
   visit("broad", names.broad, "Broad phase; empty where the scene lists its pairs.");
-  visit("narrow", names.narrow, "Narrow phases, joined by '+', or a concave phase; `none` for boxes alone.");
+  visit("narrow", names.narrow,
+        "Narrow phases, joined by '+', or a concave phase; `none` for boxes alone.");
   visit("scalar", names.scalar, "Scalar type of the narrow phases.");
   visit("tolerance", names.tolerance, "Tolerance; empty for the algorithm's own.");
   visit("max_iterations", names.max_iterations, "Cap of iterations; empty without one.");

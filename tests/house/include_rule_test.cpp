@@ -63,7 +63,7 @@ bool is_contract(const std::string& path) {
       "concave_phase",    "cast",         "ccd",
       "encoding",         "limit",        "algorithm_info",
       "broad_phase_work", "pair_query",   "signed_by_two",
-      "within_margin",    "moving_pairs",  "scene_ray_cast"};
+      "within_margin",    "moving_pairs", "scene_ray_cast"};
   return path.starts_with("algorithms/") && path.ends_with(".h") &&
          contracts.contains(path.substr(11, path.size() - 13));
 }
@@ -89,15 +89,14 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
 
 // The rooms of the harness, from the bottom up: each includes itself and those before it.
 const std::vector<std::string> harness_rooms = {
-    "base",    "geometry", "families", "files",    "scene", "process", "record",
-    "grade",   "proxies",  "measure",  "stats",    "campaign", "check", "trade",
-    "shards",  "cells",    "draw",     "bench",    "report", "commands"};
+    "base",   "geometry", "families", "files", "scene",    "process", "record",
+    "grade",  "proxies",  "measure",  "stats", "campaign", "check",   "trade",
+    "shards", "cells",    "draw",     "bench", "report",   "commands"};
 
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
-const std::set<std::string> algorithm_rooms = {"broad_phase", "narrow_phase", "manifold",
-                                               "ray_cast",    "point_query",  "mid_phase",
-                                               "concave",     "cast",         "ccd",
-                                               "scene_ray_cast"};
+const std::set<std::string> algorithm_rooms = {
+    "broad_phase", "narrow_phase", "manifold", "ray_cast", "point_query",
+    "mid_phase",   "concave",      "cast",     "ccd",      "scene_ray_cast"};
 bool is_in_algorithms(const std::string& path) {
   return std::ranges::any_of(algorithm_rooms,
                              [&](const auto& room) { return in(path, "algorithms/" + room); });

@@ -52,7 +52,7 @@ std::vector<Vec3d> read_points(const std::string& file) {
 
 // Asks about all points, in a child process. Prints the failures.
 PointAnswers ask_about(const PointQueryEntry& entry, const TriangleMesh& mesh,
-            const std::vector<Vec3d>& points, const PointsOptions& options) {
+                       const std::vector<Vec3d>& points, const PointsOptions& options) {
   PointAnswers answers = {&entry, std::vector<PointAnswer>(points.size())};
   auto solved = process::isolated_answers<PointAnswer>(
       points.size(), {.item_seconds = options.time_limit}, [&] {
@@ -70,7 +70,8 @@ PointAnswers ask_about(const PointQueryEntry& entry, const TriangleMesh& mesh,
   return answers;
 }
 
-void write_point_row(files::CsvWriter& csv, std::size_t point, const PointAnswers& answers, PointTask task) {
+void write_point_row(files::CsvWriter& csv, std::size_t point, const PointAnswers& answers,
+                     PointTask task) {
   const PointAnswer& answer = answers.of[point];
   csv.field(point).field(answers.entry->info.name).field(to_string(task));
   csv.field(task == PointTask::side ? to_string(answer.side) : "").field(answer.distance);
@@ -106,7 +107,8 @@ void ask_points(const PointsOptions& options) {
   files::check_output(options.out);
   std::vector<PointAnswers> all;
   all.reserve(entries.size());
-  for (const PointQueryEntry* entry : entries) all.push_back(ask_about(*entry, mesh, points, options));
+  for (const PointQueryEntry* entry : entries)
+    all.push_back(ask_about(*entry, mesh, points, options));
   files::CsvWriter csv(options.out, {"point", "algorithm", "task", "side", "distance", "triangle",
                                      "x", "y", "z", "status"});
   for (std::size_t point = 0; point < points.size(); ++point) {

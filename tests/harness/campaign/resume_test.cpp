@@ -41,9 +41,9 @@ class Resume : public testing::Test {
   std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
 
   // The identifying columns of rows, with the number of rows that have them.
-  using Key =
-      std::tuple<record::RowKind, std::int64_t, std::string, std::optional<record::QueryTask>, std::string, bool,
-                 std::int64_t, std::int64_t, std::int64_t, std::int64_t, record::Phase, bool>;
+  using Key = std::tuple<record::RowKind, std::int64_t, std::string,
+                         std::optional<record::QueryTask>, std::string, bool, std::int64_t,
+                         std::int64_t, std::int64_t, std::int64_t, record::Phase, bool>;
   static std::map<Key, int> keys(const std::filesystem::path& out) {
     std::map<Key, int> keys;
     for (const record::RawRow& row : record::read_rows<record::RawRow>(out / "raw.csv")) {
