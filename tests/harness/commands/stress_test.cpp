@@ -83,7 +83,7 @@ TEST_F(StressCommand, TheSameSeedGivesTheSameRows) {
 
 TEST_F(StressCommand, BadRequests) {
   expect_refusal("--narrow what", "no narrow phase is called 'what'");
-  expect_refusal("--narrow none", "--narrow names no algorithm");
+  expect_refusal("--narrow none", "no algorithm that is named has cases of these axes");
   expect_refusal("--axes what",
                  "no axis is called 'what'; expected some of scale-down, scale-up, ");
   expect_refusal("--scalar half", "--scalar");

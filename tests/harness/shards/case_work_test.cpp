@@ -170,7 +170,8 @@ TEST_F(CaseShards, APartThatWasStoppedGoesOn) {
   std::size_t end = 0;
   for (int line = 0; line < 5; ++line) end = done.find('\n', end) + 1;
   folder_.write(name + "progress.csv",
-                "name,value\nunits,2\njobs.csv," + std::to_string(end) + "\n");
+                "name,value\nunits,2\njobs.csv," + std::to_string(end) + "\nfamilies.csv," +
+                    std::to_string(folder_.read(name + "families.csv").size()) + "\n");
   folder_.write(name + "jobs.csv", done.substr(0, end + 20));
   std::string attempts = folder_.read("plan/shards/0/0/attempts.csv");
   attempts.resize(attempts.find("\n", attempts.find("begun")) + 1);
