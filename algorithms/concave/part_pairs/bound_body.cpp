@@ -2,6 +2,7 @@
 #include "algorithms/concave/part_pairs/bound_body.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -20,13 +21,37 @@ Aabb box_of(const TriangleCorners& corners) {
   return box;
 }
 
-Aabb box_of(const ConvexPart& part) {
+// The radius of the ball around the part's core, which no pose stretches.
+double round_radius(const Shape& shape) {
+  const bool is_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
+  return is_round ? shape.radius : 0;
+}
+
+Aabb box_of(const ConvexPart& part, double growth) {
   Aabb box = tight_box(part.shape, part.pose);
+  const double radius = round_radius(part.shape);
+  const double more = part.rounding + (radius > 0 ? radius * (growth - 1) : 0);
   for (int axis = 0; axis < 3; ++axis) {
-    box.min[axis] = round_down(box.min[axis] - part.rounding);
-    box.max[axis] = round_up(box.max[axis] + part.rounding);
+    box.min[axis] = round_down(box.min[axis] - more);
+    box.max[axis] = round_up(box.max[axis] + more);
   }
   return box;
+}
+
+// At least the factor by which the matrix shrinks a vector most; infinite if it may flatten one.
+double shrinking(const Mat3d& rotation) {
+  const Mat3d squares = rotation.transpose() * rotation;
+  const double skew = (squares - Mat3d::Identity()).cwiseAbs().rowwise().sum().maxCoeff();
+  // No singular value is below the root of 1 - skew.
+  if (skew <= 0.5) return 1 + skew;
+  const double greatest = rotation.cwiseAbs().maxCoeff();
+  if (!(greatest > 0)) return std::numeric_limits<double>::infinity();
+  // The determinant is the product of the singular values, and that of the two greatest ones is at
+  // most half of the sum of all squares.
+  const Mat3d scaled = rotation / greatest;
+  const double volume = std::abs(scaled.determinant());
+  if (!(volume > 1e-12)) return std::numeric_limits<double>::infinity();
+  return 1.01 * scaled.squaredNorm() / (2 * volume) / greatest;
 }
 
 // A corner of each piece of the mesh that its triangles' common corners connect.
@@ -54,8 +79,8 @@ std::vector<std::uint32_t> pieces_of(const TriangleMesh& mesh) {
 }  // namespace
 
 BoundBody::BoundBody(const ConcaveBody& body) : given(&body) {
-  boxes.reserve(body.part_count());
   if (body.mesh) {
+    boxes.reserve(body.part_count());
     for (std::uint32_t i = 0; i < body.part_count(); ++i) boxes.push_back(box_of(corners(i)));
     for (const Vec3d& vertex : body.mesh->vertices) {
       reach = std::max(reach, vertex.cwiseAbs().maxCoeff());
@@ -63,14 +88,30 @@ BoundBody::BoundBody(const ConcaveBody& body) : given(&body) {
     pieces = pieces_of(*body.mesh);
     return;
   }
-  for (const ConvexPart& part : body.parts) {
-    boxes.push_back(box_of(part));
+  fill_boxes();
+}
+
+void BoundBody::fill_boxes() {
+  boxes.clear();
+  for (const ConvexPart& part : given->parts) {
+    boxes.push_back(box_of(part, radius_growth));
     for (const auto& corner : {boxes.back().min, boxes.back().max}) {
       for (const float x : corner) {
         if (std::isfinite(x)) reach = std::max(reach, double{std::abs(x)});
       }
     }
   }
+}
+
+bool BoundBody::enclose(const Mat3d& rotation) {
+  const auto is_round = [](const ConvexPart& part) { return round_radius(part.shape) > 0; };
+  if (std::ranges::none_of(given->parts, is_round)) return false;
+  const double least = shrinking(rotation);
+  if (least <= radius_growth) return false;
+  // Powers of two, so that slowly shrinking bodies get new boxes seldom.
+  radius_growth = std::exp2(std::ceil(std::log2(least)));
+  fill_boxes();
+  return true;
 }
 
 }  // namespace touchstone

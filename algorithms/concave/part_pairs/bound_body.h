@@ -14,6 +14,11 @@ namespace touchstone {
 struct BoundBody {
   explicit BoundBody(const ConcaveBody& body);
 
+  // Computes the boxes and `reach` again such that the boxes, turned and moved with the body, enclose its
+  // parts. Balls around cores are balls in the world, which boxes that the rotation shrinks do not
+  // enclose. Returns false if they do already, as for each true rotation.
+  bool enclose(const Mat3d& rotation);
+
   const ConcaveBody* given;
   std::vector<Aabb> boxes;  // of the parts, in body coordinates
   // At least the greatest magnitude of a coordinate of the body's points, apart from those of
@@ -21,6 +26,9 @@ struct BoundBody {
   double reach = 0;
   // A corner of each connected piece of a mesh.
   std::vector<std::uint32_t> pieces;
+  // The boxes are those of parts whose radii are this many times as large. That is a little more than
+  // 1, so that rotations which were rounded to floats are enclosed.
+  double radius_growth = 1 + 0x1p-18;
 
   const TriangleMesh* mesh() const { return given->mesh.get(); }
   bool is_solid() const { return mesh() != nullptr && mesh()->solid; }
@@ -28,6 +36,9 @@ struct BoundBody {
     const auto& at = mesh()->triangles[triangle];
     return {mesh()->vertices[at[0]], mesh()->vertices[at[1]], mesh()->vertices[at[2]]};
   }
+
+ private:
+  void fill_boxes();
 };
 
 }  // namespace touchstone

@@ -120,6 +120,9 @@ void PartDistance::bind(std::span<const BoundBody> bodies, const MeshTrees& give
   trees_.assign(bodies.size(), {});
 }
 
+// The next query builds the tree anew.
+void PartDistance::refit(std::uint32_t body) { trees_[body] = {}; }
+
 const WideBvh& PartDistance::tree_of(std::uint32_t body) {
   if (body < given_->size() && !(*given_)[body].tree.nodes.empty()) return (*given_)[body].tree;
   if (trees_[body].nodes.empty()) trees_[body] = build_wide_bvh(bodies_[body].boxes);

@@ -18,6 +18,9 @@ class PartDistance {
   // with the first query.
   void bind(std::span<const BoundBody> bodies, const MeshTrees& given);
 
+  // The boxes of the body have changed.
+  void refit(std::uint32_t body);
+
   // Writes the distance, its bounds, the points and the normal. `lower` and `upper` are certified:
   // they cover all rounding; between convex parts they are those of the narrow phase. Where they are further apart than 1e-9 of the distance and 1e-12 of the
   // bodies' coordinates the status is not_converged. Nothing is written if a body has no parts.

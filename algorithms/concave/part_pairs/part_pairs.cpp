@@ -70,6 +70,8 @@ class PartPairs final : public ConcavePhase {
              std::vector<IndexPair>& pairs) override {
     outcome.status = Status::ok;
     pairs.clear();
+    enclose(a);
+    enclose(b);
     const BoundBody &first = bodies_[a.body], &second = bodies_[b.body];
     const bool all = task == ConcaveTask::contacts;
     std::optional<Status> undecided;
@@ -114,6 +116,13 @@ class PartPairs final : public ConcavePhase {
 
  private:
   static constexpr std::size_t portion = 64;
+
+  // Refits the boxes of a body whose pose shrinks it.
+  void enclose(const PlacedConcave& body) {
+    if (!bodies_[body.body].enclose(body.pose.rotation)) return;
+    if (mid_phase_ != nullptr) mid_phase_->refit(body.body, bodies_[body.body].boxes);
+    distances_.refit(body.body);
+  }
 
   void fill_mid_phase() {
     for (const BoundBody& body : bodies_) mid_phase_->add(body.boxes);

@@ -124,13 +124,49 @@ TEST(ConvexLanes, DegenerateTrianglesAndStretchedPoses) {
     const ConcaveBody body = body_of(lane_shape(random, 0.4));
     Pose a = {random.rotation(), random.vector(0.2)}, b = {random.rotation(), {0, 0, 0}};
     if (i % 4 == 0) a.rotation *= 2;
-    // A ball is a ball in the world, which the boxes of a shrunk body do not enclose.
-    if (i % 4 == 1 && body.parts[0].shape.radius == 0) b.rotation *= 0.5;
+    if (i % 4 == 1) b.rotation *= 0.5;
     if (i % 4 == 2) b.rotation = b.rotation.cast<float>().cast<double>();
     hits += expect_exact({flat, body}, a, b).meets();
   }
   EXPECT_GT(hits, count / 10);
   EXPECT_LT(hits, count);
+}
+
+// A ball around a core is a ball in the world, which the box of a shrunk body does not enclose.
+TEST(ConvexLanes, ShrunkRoundBodiesWithEachMidPhase) {
+  reference::Random random(6);
+  const ConcaveBody corner = reference::mesh_of({{Vec3d(0, 0, 0), Vec3d(1, 0, 0), Vec3d(0, 1, 0)}});
+  ConcaveBody box = body_of(reference::make_box(0.1, 0.1, 0.1));
+  int hits = 0, all = 0;
+  for (const MidPhaseEntry& mid : mid_phases()) {
+    if (mid.make == nullptr) continue;
+    SCOPED_TRACE(mid.info.name);
+    for (int i = 0; i < drawn(60, 20); ++i) {
+      ConcaveBody round;
+      for (const double x : {-0.25, 0.5}) {
+        const Shape shape =
+            i % 2 == 0 ? reference::make_sphere(0.5) : reference::make_capsule(0.5, 0.25);
+        round.parts.push_back({shape, moved_by({x, 0, 0}), 0});
+      }
+      const Pose a = {random.rotation(), random.vector(0.2)};
+      Pose b = {random.rotation(), random.vector(0.7)};
+      if (i % 3 == 0) b.rotation *= 0.5;
+      if (i % 3 == 1) b.rotation *= Vec3d(1, 0.01, 2).asDiagonal();
+      if (i % 3 == 2) b.rotation *= Vec3d(1, 0, 1).asDiagonal();
+      const std::array<ConcaveBody, 2> bodies = {i % 5 == 0 ? box : corner, round};
+      const Answered truth = ask("exact", ConcaveTask::contacts, bodies, a, b);
+      for (const char* name : {"fused", "part-pairs"}) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(ask(name, ConcaveTask::contacts, bodies, a, b, mid.info.name).pairs, truth.pairs);
+        const Answered distance = ask(name, ConcaveTask::distance, bodies, a, b, mid.info.name);
+        EXPECT_EQ(distance.outcome.answer, truth.outcome.answer);
+      }
+      hits += truth.meets();
+      ++all;
+    }
+  }
+  EXPECT_GT(hits, all / 10);
+  EXPECT_LT(hits, all * 9 / 10);
 }
 
 TEST(ConvexLanes, TinyAndHuge) {
