@@ -95,7 +95,7 @@ Advancement AdvancementSearch::hit(const SupportPair<double>& pair, const Neares
   const double time = found.time;
   if (!(time > 0) && !normal.isZero(0)) normal_ = normal;
   const Vec3d core = found.a + pair.radius_a() * normal_;
-  point_ = motion_.to_world(pair.to_world(core), time);
+  point_ = motion_.to_world(motion_.centre_a(time) + pair.unit() * core, time);
   nearest_ = {time, motion_.centre_a(time) + pair.unit() * found.a,
               motion_.centre_b(time) + pair.unit() * found.b};
   return {Advancement::State::hit, {}};

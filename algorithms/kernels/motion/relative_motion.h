@@ -49,7 +49,7 @@ class RelativeMotion {
   // direction and for the arithmetic on gaps. `placement_rounding` comes on top.
   static constexpr double pair_rounding = 160 * std::numeric_limits<double>::epsilon();
 
-  // The pair at a time in [0, 1].
+  // The pair at a time in [0, 1]. Its `to_world` has no meaning: the pose of a that it refers to is gone.
   SupportPair<double> at(double time) const;
 
   // How far a point of a body that `at` places is off its place relative to the other body
