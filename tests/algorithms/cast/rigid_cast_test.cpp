@@ -154,7 +154,7 @@ TEST_P(RigidCast, AgreesWithTheOracle) {
   const CastEntry& exact = *find_cast("exact");
   if (&entry() == &exact) return;
   Random random(26);
-  for (int i = 0; i < drawn(120, 16); ++i) {
+  for (int i = 0; i < drawn(120, 48); ++i) {
     MovingPairCase c;
     c.a = random_shape(kinds[static_cast<std::size_t>(random.below(4))], random);
     c.b = random_shape(kinds[static_cast<std::size_t>(random.below(4))], random);
