@@ -37,7 +37,7 @@ class PartPairs final : public ConcavePhase {
  public:
   // A null test makes `fused`.
   PartPairs(const ConcaveSettings& settings, RoughTest test)
-      : trees_(std::make_shared<MeshTrees>()), convex_pairs_(settings.narrow_phase()) {
+      : trees_(std::make_shared<MeshTrees>()), convex_pairs_(settings.narrow_phase) {
     if (test == nullptr) {
       mesh_pairs_ = fused_pairs(trees_);
       search_.emplace(trees_);
@@ -63,6 +63,7 @@ class PartPairs final : public ConcavePhase {
       fill_mid_phase();
     }
     mesh_pairs_->bind(bodies_);
+    convex_pairs_.bind(bodies_);
     distances_.bind(bodies_, *trees_);
   }
 
