@@ -112,6 +112,38 @@ TEST(ConcaveBodies, RoundedPartsAreDecidedAwayFromContactAlone) {
   EXPECT_EQ(agreed({turned, box}, body, same).outcome.answer, Answer::separated);
 }
 
+// Turned parts of all kinds near contact: rounded poses hide no verdict, and make none wrong.
+TEST(ConcaveBodies, TurnedPartsOfTurnedBodiesNearContact) {
+  reference::Random random(6);
+  const ConcaveBody triangle =
+      reference::mesh_of({{Vec3d(0, 0, 0), Vec3d(2, 0, 0), Vec3d(0, 2, 0)}});
+  int hits = 0, misses = 0;
+  const int count = drawn(80, 16);
+  for (int i = 0; i < count; ++i) {
+    ConcaveBody turned, other;
+    turned.parts.push_back({any_shape(random), {random.rotation(), random.vector(0.5)}, 0});
+    other.parts.push_back({any_shape(random), {random.rotation(), random.vector(0.5)}, 0});
+    const std::array<ConcaveBody, 2> bodies = {turned, i % 3 == 0 ? triangle : other};
+    const Pose a = {random.rotation(), random.vector(1)};
+    Pose b = {random.rotation(), a.translation};
+    const Vec3d start = b.translation, way = random.direction();
+    double in = 0, out = 8;
+    for (int step = 0; step < 30; ++step) {
+      const double middle = (in + out) / 2;
+      b.translation = start + middle * way;
+      (ask("part-pairs", ConcaveTask::intersect, bodies, a, b).meets() ? in : out) = middle;
+    }
+    for (const double off : {-1e-2, -1e-7, 1e-7, 1e-2}) {
+      b.translation = start + ((in + out) / 2 + off) * way;
+      const Answered answered = agreed(bodies, a, b);
+      hits += answered.meets();
+      misses += answered.outcome.answer == Answer::separated;
+    }
+  }
+  EXPECT_GT(hits, count);
+  EXPECT_GT(misses, count);
+}
+
 TEST(ConcaveBodies, WhatIsInsideOfASolidMeetsIt) {
   const TriangleMesh small = reference::box_mesh(0.25, 0.25, 0.25);
   reference::Random random(4);
