@@ -17,13 +17,9 @@
 // Cost:    a GJK distance, two supports for each new end and some for each piece. The end is exact along the axis,
 //          and the pieces save GJK, not proofs: at many turns these are what it costs. Tolerance: 1e-9 of the
 //          larger body's size.
-#include <algorithm>
 #include <optional>
-#include <vector>
 
-#include "algorithms/cast.h"
-#include "algorithms/kernels/motion/advancement.h"
-#include "algorithms/kernels/motion/halfspace_cast.h"
+#include "algorithms/kernels/motion/advancing_cast.h"
 
 namespace touchstone {
 namespace {
@@ -32,51 +28,6 @@ namespace {
 struct DeepestPoints {
   double time;
   Vec3d a, b;
-};
-
-class BilateralAdvancement final : public Cast {
- public:
-  explicit BilateralAdvancement(const CastSettings& settings)
-      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000)), true} {}
-
-  void bind(std::span<const Shape> shapes) override {
-    shapes_ = make_support_shapes<double>(shapes);
-    inner_radii_ = inner_radii(shapes, shapes_);
-  }
-
-  void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
-    const BodyPairs& pairs = batch.pairs;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t a = pairs.first[i], b = pairs.second[i];
-      const MovingBody body_a = moving(batch, a);
-      const MovingBody body_b = moving(batch, b);
-      outcomes[i] = {};
-      if (batch.kind_b == ShapeKind::halfspace) {
-        cast_halfspace(*body_a.shape, *body_a.pose, *body_a.motion, *body_b.shape, *body_b.pose,
-                       *body_b.motion, {goal_.tolerance.value_or(0)}, outcomes[i]);
-        continue;
-      }
-      const RelativeMotion motion(body_a, body_b);
-      advance(
-          motion, goal_,
-          [&](SupportPair<double>& pair, const PartingPlane& plane) {
-            return step(motion, pair, plane);
-          },
-          outcomes[i]);
-    }
-  }
-
- private:
-  MovingBody moving(const CastBatch& batch, std::uint32_t k) const {
-    const std::uint32_t shape = batch.pairs.shape_of[k];
-    return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
-  }
-  static FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair,
-                        const PartingPlane& plane);
-
-  AdvancementGoal goal_;
-  std::vector<SupportShape<double>> shapes_;
-  std::vector<double> inner_radii_;  // metres, one for each shape
 };
 
 // The gap along the plane's normal at a time.
@@ -135,8 +86,14 @@ double axis_serves_until(const RelativeMotion& motion, const PartingPlane& plane
   return end;
 }
 
-FreeUntil BilateralAdvancement::step(const RelativeMotion& motion, SupportPair<double>& pair,
-                                     const PartingPlane& plane) {
+struct BilateralStep {
+  static constexpr bool balls_first = true;
+  static FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair,
+                        const PartingPlane& plane);
+};
+
+FreeUntil BilateralStep::step(const RelativeMotion& motion, SupportPair<double>& pair,
+                              const PartingPlane& plane) {
   constexpr int most_pieces = 32;
   FreeUntil free = longest_step(motion, pair, plane);
   const bool turns = motion.a().motion->turns() || motion.b().motion->turns();
@@ -160,10 +117,6 @@ FreeUntil BilateralAdvancement::step(const RelativeMotion& motion, SupportPair<d
   return free;
 }
 
-bool supports_bilateral(ShapeKind, ShapeKind kind_b, bool turns) {
-  return !turns || kind_b != ShapeKind::halfspace;
-}
-
 }  // namespace
 }  // namespace touchstone
 
@@ -175,9 +128,9 @@ std::vector<CastEntry> cast_bilateral_advancement() {
                 .citation = "Catto, \"Continuous collision\", GDC 2013, with a proof of each step"},
        .scalars = {Precision::float64},
        .rotation = true,
-       .supports = supports_bilateral,
+       .supports = advancing_cast_supports,
        .make = [](const CastSettings& settings) {
-         return std::make_unique<BilateralAdvancement>(settings);
+         return std::make_unique<AdvancingCast<BilateralStep>>(settings);
        }}};
 }
 

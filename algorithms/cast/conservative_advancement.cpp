@@ -13,52 +13,15 @@
 // Fails:   unknown / not_converged at the cap of 2,000 steps: it converges linearly, with a factor near 1
 //          where mu is far above the true speed (long bodies that turn).
 // Cost:    a GJK distance a step. Tolerance: 1e-9 of the larger body's size.
-#include <algorithm>
-#include <vector>
-
-#include "algorithms/cast.h"
-#include "algorithms/kernels/motion/advancement.h"
-#include "algorithms/kernels/motion/halfspace_cast.h"
+#include "algorithms/kernels/motion/advancing_cast.h"
 
 namespace touchstone {
 namespace {
 
-class ConservativeAdvancement final : public Cast {
- public:
-  explicit ConservativeAdvancement(const CastSettings& settings)
-      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000)), false} {}
-
-  void bind(std::span<const Shape> shapes) override {
-    shapes_ = make_support_shapes<double>(shapes);
-    inner_radii_ = inner_radii(shapes, shapes_);
-  }
-
-  void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
-    const BodyPairs& pairs = batch.pairs;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t a = pairs.first[i], b = pairs.second[i];
-      const MovingBody body_a = moving(batch, a);
-      const MovingBody body_b = moving(batch, b);
-      outcomes[i] = {};
-      if (batch.kind_b == ShapeKind::halfspace) {
-        cast_halfspace(*body_a.shape, *body_a.pose, *body_a.motion, *body_b.shape, *body_b.pose,
-                       *body_b.motion, {goal_.tolerance.value_or(0)}, outcomes[i]);
-        continue;
-      }
-      const RelativeMotion motion(body_a, body_b);
-      advance(
-          motion, goal_,
-          [&](SupportPair<double>&, const PartingPlane& plane) { return step(motion, plane); },
-          outcomes[i]);
-    }
-  }
-
- private:
-  MovingBody moving(const CastBatch& batch, std::uint32_t k) const {
-    const std::uint32_t shape = batch.pairs.shape_of[k];
-    return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
-  }
-  static FreeUntil step(const RelativeMotion& motion, const PartingPlane& plane) {
+struct ConservativeStep {
+  static constexpr bool balls_first = false;
+  static FreeUntil step(const RelativeMotion& motion, SupportPair<double>&,
+                        const PartingPlane& plane) {
     const auto turning = [&](const MovingBody& body, double reach) {
       return plane.normal.cross(body.motion->rotation_vector).norm() * reach;
     };
@@ -69,15 +32,7 @@ class ConservativeAdvancement final : public Cast {
     if (plane.gap - left * speed > 0) return {1, true};
     return {plane.time + plane.gap / speed, false};
   }
-
-  AdvancementGoal goal_;
-  std::vector<SupportShape<double>> shapes_;
-  std::vector<double> inner_radii_;  // metres, one for each shape
 };
-
-bool supports(ShapeKind, ShapeKind kind_b, bool turns) {
-  return !turns || kind_b != ShapeKind::halfspace;
-}
 
 }  // namespace
 }  // namespace touchstone
@@ -93,9 +48,9 @@ std::vector<CastEntry> cast_conservative_advancement() {
                             "22, 2006"},
        .scalars = {Precision::float64},
        .rotation = true,
-       .supports = supports,
+       .supports = advancing_cast_supports,
        .make = [](const CastSettings& settings) {
-         return std::make_unique<ConservativeAdvancement>(settings);
+         return std::make_unique<AdvancingCast<ConservativeStep>>(settings);
        }}};
 }
 

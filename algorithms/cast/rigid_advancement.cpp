@@ -11,63 +11,19 @@
 //          bound k belongs to the whole body.
 // Cost:    a GJK distance and two to four support calls a step; steps converge like Newton's, unless the
 //          bodies graze. Tolerance: 1e-9 of the larger body's size.
-#include <algorithm>
-#include <vector>
-
-#include "algorithms/cast.h"
-#include "algorithms/kernels/motion/advancement.h"
-#include "algorithms/kernels/motion/halfspace_cast.h"
+#include "algorithms/kernels/motion/advancing_cast.h"
 #include "algorithms/kernels/motion/parting_step.h"
 
 namespace touchstone {
 namespace {
 
-class RigidAdvancement final : public Cast {
- public:
-  explicit RigidAdvancement(const CastSettings& settings)
-      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000)), true} {}
-
-  void bind(std::span<const Shape> shapes) override {
-    shapes_ = make_support_shapes<double>(shapes);
-    inner_radii_ = inner_radii(shapes, shapes_);
+struct RigidStep {
+  static constexpr bool balls_first = true;
+  static FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair,
+                        const PartingPlane& plane) {
+    return longest_step(motion, pair, plane);
   }
-
-  void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
-    const BodyPairs& pairs = batch.pairs;
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const std::uint32_t a = pairs.first[i], b = pairs.second[i];
-      const MovingBody body_a = moving(batch, a);
-      const MovingBody body_b = moving(batch, b);
-      outcomes[i] = {};
-      if (batch.kind_b == ShapeKind::halfspace) {
-        cast_halfspace(*body_a.shape, *body_a.pose, *body_a.motion, *body_b.shape, *body_b.pose,
-                       *body_b.motion, {goal_.tolerance.value_or(0)}, outcomes[i]);
-        continue;
-      }
-      const RelativeMotion motion(body_a, body_b);
-      advance(
-          motion, goal_,
-          [&](SupportPair<double>& pair, const PartingPlane& plane) {
-            return longest_step(motion, pair, plane);
-          },
-          outcomes[i]);
-    }
-  }
-
- private:
-  MovingBody moving(const CastBatch& batch, std::uint32_t k) const {
-    const std::uint32_t shape = batch.pairs.shape_of[k];
-    return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
-  }
-
-  AdvancementGoal goal_;
-  std::vector<SupportShape<double>> shapes_;
-  std::vector<double> inner_radii_;  // metres, one for each shape
 };
-
-bool supports_rigid(ShapeKind, ShapeKind kind_b, bool turns) {
-  return !turns || kind_b != ShapeKind::halfspace;
-}
 
 }  // namespace
 }  // namespace touchstone
@@ -81,9 +37,9 @@ std::vector<CastEntry> cast_rigid_advancement() {
                             "the plane of the closest points parts the turning bodies"},
        .scalars = {Precision::float64},
        .rotation = true,
-       .supports = supports_rigid,
+       .supports = advancing_cast_supports,
        .make = [](const CastSettings& settings) {
-         return std::make_unique<RigidAdvancement>(settings);
+         return std::make_unique<AdvancingCast<RigidStep>>(settings);
        }}};
 }
 

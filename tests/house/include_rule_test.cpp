@@ -142,6 +142,8 @@ bool may_include(const std::string& from, const std::string& to) {
   if (in(from, "algorithms/kernels")) {
     if (to == "algorithms/broad_phase_work.h") return true;  // counted where the work is done
     if (to == "algorithms/ray_cast.h") return in(from, "algorithms/kernels/rays");  // its rays
+    if (to == "algorithms/cast.h")
+      return in(from, "algorithms/kernels/motion");  // a cast of any step
     if (!in(to, "algorithms/kernels")) return false;
     const std::string room = room_in(from, "algorithms/kernels");
     const std::string other = room_in(to, "algorithms/kernels");

@@ -11,8 +11,8 @@
 #include "algorithms/core/bounds.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/oracle/solid.h"
+#include "harness/check/kinds/blocks/cast_forms.h"
 #include "harness/check/kinds/blocks/drawn_cases.h"
-#include "harness/check/kinds/blocks/exact_forms.h"
 #include "harness/check/kinds/blocks/grading.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/files/text_file.h"
@@ -34,96 +34,6 @@ double reach_of_motion(const CastCase& c) {
   add(c.shape_a, c.pose_a, c.motion_a);
   add(c.shape_b, c.pose_b, c.motion_b);
   return reach;
-}
-
-CastCase swapped_case(CastCase c) {
-  std::swap(c.shape_a, c.shape_b);
-  std::swap(c.pose_a, c.pose_b);
-  std::swap(c.motion_a, c.motion_b);
-  return c;
-}
-
-// The hull is made anew, since its faces are in metres too.
-Shape scaled_by(Shape s, double scale) {
-  s.radius *= scale;
-  s.half_length *= scale;
-  s.half_extents *= scale;
-  s.radii *= scale;
-  s.offset *= scale;
-  if (s.kind != ShapeKind::hull) return s;
-  auto hull = std::make_shared<Hull>(*s.hull);
-  for (Vec3d& vertex : hull->vertices) vertex *= scale;
-  s.hull = std::move(hull);
-  return s;
-}
-
-CastCase scaled_case(CastCase c, double scale) {
-  c.shape_a = scaled_by(c.shape_a, scale);
-  c.shape_b = scaled_by(c.shape_b, scale);
-  for (Pose* pose : {&c.pose_a, &c.pose_b}) pose->translation *= scale;
-  for (Motion* motion : {&c.motion_a, &c.motion_b}) motion->displacement *= scale;
-  return c;
-}
-
-std::optional<CastCase> moved_case(CastCase c, const FormNumbers& numbers) {
-  for (const auto& [pose, motion] :
-       {std::pair(&c.pose_a, &c.motion_a), std::pair(&c.pose_b, &c.motion_b)}) {
-    const auto sum = exact_sum(numbers.turn(pose->translation), numbers.shift);
-    if (!sum) return std::nullopt;
-    pose->translation = *sum;
-    pose->rotation = numbers.turn(pose->rotation);
-    motion->displacement = numbers.turn(motion->displacement);
-    motion->rotation_vector = numbers.turn(motion->rotation_vector);
-  }
-  return c;
-}
-
-// The motion from a part of the time to its end, for bodies that do not turn.
-std::optional<CastCase> from_time(CastCase c, double time) {
-  for (const auto& [pose, motion] :
-       {std::pair(&c.pose_a, &c.motion_a), std::pair(&c.pose_b, &c.motion_b)}) {
-    const auto sum = exact_sum(pose->translation, time * motion->displacement);
-    if (!sum) return std::nullopt;
-    pose->translation = *sum;
-  }
-  return c;
-}
-
-void multiply_motion(CastCase& c, double factor) {
-  c.motion_a.displacement *= factor;
-  c.motion_b.displacement *= factor;
-}
-
-// One case, or the two halves of one.
-using CastParts = std::vector<CastCase>;
-
-CastParts parts_in_form(const CastCase& c, const FormNumbers& numbers, CaseForm form) {
-  switch (form) {
-    case CaseForm::as_drawn: return {c};
-    case CaseForm::swapped: return {swapped_case(c)};
-    case CaseForm::scaled: return {scaled_case(c, numbers.scale)};
-    case CaseForm::moved: {
-      const auto moved = moved_case(c, numbers);
-      return moved ? CastParts{*moved} : CastParts{};
-    }
-    case CaseForm::reversed: {
-      if (process::turns(c)) return {};
-      auto end = from_time(c, 1);
-      if (!end) return {};
-      multiply_motion(*end, -1);
-      return {*end};
-    }
-    case CaseForm::split: {
-      if (process::turns(c)) return {};
-      auto second = from_time(c, 0.5);
-      if (!second) return {};
-      CastCase first = c;
-      multiply_motion(first, 0.5);
-      multiply_motion(*second, 0.5);
-      return {first, *second};
-    }
-  }
-  return {};
 }
 
 // Cases of one call; a crash costs them all.

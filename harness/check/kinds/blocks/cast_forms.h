@@ -1,0 +1,18 @@
+// Forms of cases of moving bodies: swapped, scaled, moved, reversed and cut in two.
+#pragma once
+
+#include <vector>
+
+#include "harness/check/kinds/blocks/exact_forms.h"
+#include "harness/check/kinds/family_count.h"
+#include "harness/files/cases.h"
+
+namespace touchstone::check {
+
+// One case, or the two halves of one.
+using CastParts = std::vector<files::CastCase>;
+
+// Returns the case in that form; nothing if the form would round a number.
+CastParts parts_in_form(const files::CastCase& c, const FormNumbers& numbers, CaseForm form);
+
+}  // namespace touchstone::check
