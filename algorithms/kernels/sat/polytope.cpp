@@ -112,8 +112,8 @@ void build_solid(Builder& out, const Hull& hull) {
   }
 }
 
-// The greatest normal . v over vertices, for many normals. Doubles find the blocks that can hold
-// it, and only there long doubles are used.
+// The greatest normal . v over vertices, for many normals. Doubles find the vertices that can hold
+// it, and only those are asked in long double.
 class Offsets {
  public:
   explicit Offsets(const std::vector<Vec>& vertices)
@@ -137,7 +137,8 @@ class Offsets {
       if (hull_scan::greatest(all.subspan(first, count), n) < least) continue;
       const std::size_t end = std::min((first + count) * Block::size, vertices_.size());
       for (std::size_t k = first * Block::size; k < end; ++k) {
-        offset = std::max(offset, normal.dot(vertices_[k]));
+        const Vec3<double> v = blocks_[k / Block::size].vertex(k % Block::size);
+        if (n.dot(v) >= least) offset = std::max(offset, normal.dot(vertices_[k]));
       }
     }
     return offset;
