@@ -80,11 +80,13 @@ def open_rows(path):
         raise BadRequest(f"{packed}: cannot be unpacked")
 
 
-def read_table(folder, name):
-    """The rows of NAME.csv, numbers as floats, empty fields as None."""
+TEXTS = {"scene", "scene_hash", "seed", "boxes", "task", "pair_kind", "pairs_of", "isa_limit", "algorithm",
+         "baseline", "origin", "unit", "failure", "winner", "runner_up", "counts"}
+
+
+def read_table(folder, name, texts=frozenset(TEXTS)):
+    """The rows of NAME.csv, numbers as floats, empty fields as None; the columns in `texts` hold text."""
     path = os.path.join(folder, name + ".csv")
-    texts = {"scene", "scene_hash", "seed", "boxes", "task", "pair_kind", "pairs_of", "isa_limit", "algorithm",
-             "baseline", "origin", "unit", "failure", "winner", "runner_up", "counts"}
     rows = []
     try:
         with open_rows(path) as file:
@@ -98,6 +100,27 @@ def read_table(folder, name):
     except (ValueError, TypeError) as error:
         raise BadRequest(f"{path}: {error}") from None
     return rows
+
+
+def styles_of(rows):
+    """A style for each algorithm in the rows: ours filled and solid, others open and dashed."""
+    ours, others = [], []
+    for row in rows:
+        names = ours if row["origin"] == "ours" else others
+        if row["algorithm"] not in names:
+            names.append(row["algorithm"])
+    styles = {}
+    for names, line, filled in ((ours, "-", True), (others, "--", False)):
+        for i, name in enumerate(names):
+            colour = COLOURS[i % len(COLOURS)]
+            styles[name] = {
+                "color": colour,
+                "linestyle": line,
+                "marker": MARKERS[(i + i // len(COLOURS)) % len(MARKERS)],
+                "markerfacecolor": colour if filled else "white",
+                "markeredgewidth": 0.8,
+            }
+    return styles
 
 
 class Tables:
@@ -114,25 +137,7 @@ class Tables:
 
     def styles(self, narrow=False):
         """A style for each algorithm: the same in every figure that is drawn from these tables."""
-        ours, others = [], []
-        for row in self["times"]:
-            if bool(row["task"]) != narrow:
-                continue
-            names = ours if row["origin"] == "ours" else others
-            if row["algorithm"] not in names:
-                names.append(row["algorithm"])
-        styles = {}
-        for names, line, filled in ((ours, "-", True), (others, "--", False)):
-            for i, name in enumerate(names):
-                colour = COLOURS[i % len(COLOURS)]
-                styles[name] = {
-                    "color": colour,
-                    "linestyle": line,
-                    "marker": MARKERS[(i + i // len(COLOURS)) % len(MARKERS)],
-                    "markerfacecolor": colour if filled else "white",
-                    "markeredgewidth": 0.8,
-                }
-        return styles
+        return styles_of([row for row in self["times"] if bool(row["task"]) == narrow])
 
 
 def in_order(values):

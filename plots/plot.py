@@ -4,6 +4,7 @@ import sys
 
 import agreement
 import broad
+import cells
 import common
 import concave
 import narrow
@@ -26,4 +27,4 @@ FIGURES = {
 }
 
 if __name__ == "__main__":
-    sys.exit(common.run(FIGURES, __doc__, {"points.csv": trade.run, "stress.csv": stress.run}))
+    sys.exit(common.run(FIGURES, __doc__, {"points.csv": trade.run, "stress.csv": stress.run, cells.FILE: cells.run}))

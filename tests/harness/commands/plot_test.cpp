@@ -82,6 +82,29 @@ TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
   EXPECT_EQ(folder.read("one/stress_ours.png"), folder.read("two/stress_ours.png"));
 }
 
+TEST(Plots, CellsWithACrossBesideWhoIsWrong) {
+  if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
+  const TemporaryFolder folder;
+  const std::string header = "group,cell,algorithm,origin,missed,false_hits,other,status,seconds\n";
+  const std::string rows =
+      "hit,box,first,ours,0,0,0,ok,1e-7\nhit,box,second,peer,3,0,0,ok,2e-7\n"
+      "miss,box,first,ours,0,0,0,ok,2e-7\nmiss,box,second,peer,,,,unsupported,\n";
+  folder.write("grades.csv", header + rows);
+  folder.write("times.csv", header + rows);
+  const std::string cells = folder.path().string();
+  Ran ran = plot(cells);
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  const std::string figure = folder.read("figures/cells.svg");
+  EXPECT_THAT(figure, testing::HasSubstr("wrong at least once"));
+  EXPECT_GT(folder.read("figures/cells.png").size(), 1000u);
+  ran = plot(cells);
+  EXPECT_TRUE(figure == folder.read("figures/cells.svg"));
+  folder.write("times.csv", header + "hit,box,first,ours,0,0,0,unsupported,\n");
+  ran = plot(cells);
+  EXPECT_EQ(ran.status, 2) << ran.text;
+  EXPECT_THAT(ran.text, testing::HasSubstr("nothing was drawn"));
+}
+
 TEST(Plots, BadRequestsAreTold) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
