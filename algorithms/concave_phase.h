@@ -32,6 +32,11 @@ struct ConcaveSettings {
   std::function<std::unique_ptr<MidPhase>()> mid_phase = {};
   // What answers for pairs of convex parts, and of a convex part and a triangle; never null.
   std::function<std::unique_ptr<NarrowPhase>()> narrow_phase = {};
+  // For `measure`, of a mesh and a convex part: a normal along which neighbours of the triangle are in the
+  // way is no way out of the mesh, as at an edge inside of a flat surface. The contact gets the normal of
+  // its face, on the side of the part's origin, and the depth along it. Without it each triangle has the
+  // contact that it would have alone.
+  bool welds = false;
 };
 
 // A bound body and its place.
@@ -48,6 +53,7 @@ struct PartContact {
   Vec3d normal = Vec3d::Constant(Outcome::none);  // unit vector in the world, from a to b
   double depth = Outcome::none;                   // metres; the least such, and 0 for a touch
   Vec3d point = Vec3d::Constant(Outcome::none);   // in the world: amid the two witness points
+  bool is_welded = false;  // the normal and the depth are those of the face: ConcaveSettings::welds
 };
 
 // One instance for each worker, never shared between threads.
@@ -88,8 +94,8 @@ struct ConcaveEntry {
   // True if it finds pairs of parts of two meshes with ConcaveSettings::mid_phase, so that its times
   // depend on that.
   bool takes_mid_phase = false;
-  // True if `measure` has contacts.
-  bool measures = false;
+  // True if `measure` has contacts, and if it heeds ConcaveSettings::welds.
+  bool measures = false, welds = false;
   // True if it is wrong where its doubles are: its answers are no promise.
   bool approximate = false;
   // Null if it is not built.

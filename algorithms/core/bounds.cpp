@@ -8,6 +8,39 @@
 namespace touchstone {
 namespace {
 
+Vec3d support_in_body(const Shape& s, const Vec3d& d) {
+  const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
+  const double across = std::sqrt(d.x() * d.x() + d.y() * d.y());
+  const Vec3d rim =
+      across > 0 ? Vec3d(s.radius * d.x() / across, s.radius * d.y() / across, 0) : Vec3d(0, 0, 0);
+  switch (s.kind) {
+    case ShapeKind::sphere: return s.radius * d.normalized();
+    case ShapeKind::capsule:
+      return s.radius * d.normalized() + Vec3d(0, 0, sign(d.z()) * s.half_length);
+    case ShapeKind::box:
+      return {sign(d.x()) * s.half_extents.x(), sign(d.y()) * s.half_extents.y(),
+              sign(d.z()) * s.half_extents.z()};
+    case ShapeKind::cylinder: return rim + Vec3d(0, 0, sign(d.z()) * s.half_length);
+    case ShapeKind::cone: {
+      const Vec3d tip(0, 0, s.half_length), base = rim - tip;
+      return d.dot(tip) > d.dot(base) ? tip : base;
+    }
+    case ShapeKind::ellipsoid: {
+      const Vec3d e = s.radii.cwiseProduct(d);
+      return s.radii.cwiseProduct(e / e.norm());
+    }
+    case ShapeKind::hull: {
+      Vec3d best = s.hull->vertices[0];
+      for (const Vec3d& v : s.hull->vertices) {
+        if (d.dot(v) > d.dot(best)) best = v;
+      }
+      return best;
+    }
+    case ShapeKind::halfspace: break;
+  }
+  return Vec3d::Zero();
+}
+
 constexpr double inf = std::numeric_limits<double>::infinity();
 // Each extent is a sum of at most four products of a few factors: fewer than 16 roundings, each of
 // at most half an ulp of a partial sum, and each partial sum is at most the sum of magnitudes.
@@ -126,6 +159,10 @@ double loose_reach(const Shape& shape, const Mat3d& rotation) {
   const double stretch =
       std::sqrt(1 + (rotation.transpose() * rotation - Mat3d::Identity()).norm());
   return reach * stretch * (1 + rounding);
+}
+
+Vec3d support_point(const Shape& shape, const Pose& pose, const Vec3d& direction) {
+  return pose(support_in_body(shape, pose.rotation.transpose() * direction));
 }
 
 }  // namespace touchstone

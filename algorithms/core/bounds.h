@@ -1,5 +1,5 @@
-// The tight and loose boxes of bodies, rounded outward. Used by peers and by the
-// rooms scene, proxies, check, grade and trade.
+// The tight and loose boxes of bodies, rounded outward, and their support points. Used by peers and by the
+// rooms families, scene, proxies, check, grade, trade and cells.
 #pragma once
 
 #include "algorithms/core/aabb.h"
@@ -22,5 +22,10 @@ Aabb loose_box(double reach, const Vec3d& translation);
 // Returns the greatest distance of a body's points from its origin (metres), rounded up; infinite
 // for a half-space. `rotation` matters only as far as it is not orthonormal.
 double loose_reach(const Shape& shape, const Mat3d& rotation);
+
+// Returns the point of the body that is furthest in a direction, in the world as the direction is, which has
+// any length but 0; of several points one. It is rounded as doubles are. A half-space has none; the
+// origin of its body stands for it.
+Vec3d support_point(const Shape& shape, const Pose& pose, const Vec3d& direction);
 
 }  // namespace touchstone

@@ -14,7 +14,7 @@
 
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase.h"
+#include "algorithms/mid_phase_of_trees.h"
 
 namespace touchstone {
 namespace {
@@ -52,20 +52,11 @@ class BoxTree {
   double reach_;
 };
 
-class BinaryBvhMidPhase final : public MidPhase {
+class BinaryBvhMidPhase final : public MidPhaseOfTrees<BoxTree> {
  public:
-  std::uint32_t add(std::span<const Aabb> parts) override {
-    trees_.emplace_back(parts);
-    return static_cast<std::uint32_t>(trees_.size() - 1);
-  }
-
-  void refit(std::uint32_t body, std::span<const Aabb> parts) override {
-    trees_[body].refit(parts);
-  }
-
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const BoxTree &first = trees_[a], &second = trees_[b];
+    const BoxTree &first = tree(a), &second = tree(b);
     const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
     const double slack = box_slack(frame, first.reach(), second.reach());
     PlacedBox box_a, box_b;
@@ -85,7 +76,6 @@ class BinaryBvhMidPhase final : public MidPhase {
   }
 
  private:
-  std::vector<BoxTree> trees_;
   std::vector<IndexPair> open_;  // pairs of nodes
 };
 

@@ -18,7 +18,7 @@
 
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase.h"
+#include "algorithms/mid_phase_of_trees.h"
 
 namespace touchstone {
 namespace {
@@ -144,20 +144,11 @@ bool are_apart(const PlacedObb& a, const PlacedObb& b, double slack) {
   return false;
 }
 
-class ObbTreeMidPhase final : public MidPhase {
+class ObbTreeMidPhase final : public MidPhaseOfTrees<ObbTree> {
  public:
-  std::uint32_t add(std::span<const Aabb> parts) override {
-    trees_.emplace_back(parts);
-    return static_cast<std::uint32_t>(trees_.size() - 1);
-  }
-
-  void refit(std::uint32_t body, std::span<const Aabb> parts) override {
-    trees_[body].refit(parts);
-  }
-
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const ObbTree &first = trees_[a], &second = trees_[b];
+    const ObbTree &first = tree(a), &second = tree(b);
     const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
     const double slack = 4 * box_slack(frame, first.reach(), second.reach());
     return descend(
@@ -180,7 +171,6 @@ class ObbTreeMidPhase final : public MidPhase {
   }
 
  private:
-  std::vector<ObbTree> trees_;
   std::vector<IndexPair> open_;  // pairs of nodes
 };
 

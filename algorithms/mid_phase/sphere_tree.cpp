@@ -18,7 +18,7 @@
 
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase.h"
+#include "algorithms/mid_phase_of_trees.h"
 
 namespace touchstone {
 namespace {
@@ -88,20 +88,11 @@ class SphereTree {
   double reach_;
 };
 
-class SphereTreeMidPhase final : public MidPhase {
+class SphereTreeMidPhase final : public MidPhaseOfTrees<SphereTree> {
  public:
-  std::uint32_t add(std::span<const Aabb> parts) override {
-    trees_.emplace_back(parts);
-    return static_cast<std::uint32_t>(trees_.size() - 1);
-  }
-
-  void refit(std::uint32_t body, std::span<const Aabb> parts) override {
-    trees_[body].refit(parts);
-  }
-
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const SphereTree &first = trees_[a], &second = trees_[b];
+    const SphereTree &first = tree(a), &second = tree(b);
     const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
     const double slack = 4 * box_slack(frame, first.reach(), second.reach());
     const double stretch_a = stretch(frame.a.rotation), stretch_b = stretch(frame.b.rotation);
@@ -133,7 +124,6 @@ class SphereTreeMidPhase final : public MidPhase {
     return std::sqrt(squares.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 0x1p-46);
   }
 
-  std::vector<SphereTree> trees_;
   std::vector<IndexPair> open_;  // pairs of nodes
 };
 

@@ -10,11 +10,11 @@
 #include "harness/base/clock.h"
 #include "harness/base/hash.h"
 #include "harness/base/random.h"
-#include "harness/cells/cell_rows.h"
 #include "harness/measure/noise.h"
 #include "harness/process/interrupt.h"
 #include "harness/process/isolate.h"
 #include "harness/record/machine.h"
+#include "harness/stats/cells/cell_rows.h"
 
 namespace touchstone::cells {
 namespace {
@@ -85,8 +85,8 @@ class CellRun {
                                        record::FolderStart start) {
     record::ResultFolderPlan plan;
     plan.folder = folder;
-    plan.files = {{"grades.csv", record::header_of<GradeRow>()},
-                  {"raw.csv", record::header_of<CellSampleRow>()}};
+    plan.files = {{"grades.csv", record::header_of<stats::GradeRow>()},
+                  {"raw.csv", record::header_of<stats::CellSampleRow>()}};
     plan.identity = {{"cells", request.name},
                      {"rounds", std::to_string(request.rounds)},
                      {"sample_seconds", fmt::format("{}", request.sample_seconds)},
@@ -98,12 +98,12 @@ class CellRun {
     return plan;
   }
 
-  void note(const GradeRow& row) {
+  void note(const stats::GradeRow& row) {
     result_.ours_wrong |=
         row.origin == "ours" && !row.approximate && (!row.is_right() || row.status == "crashed");
   }
   void note_earlier_grades() {
-    folder_.each_row<GradeRow>(grades_file, [&](const GradeRow& row) { note(row); });
+    folder_.each_row<stats::GradeRow>(grades_file, [&](const stats::GradeRow& row) { note(row); });
   }
 
   // Returns false if it was interrupted.
@@ -131,7 +131,7 @@ class CellRun {
 
   void write_grade(const PlannedCell& planned, const Cell& cell, const Contestant& contestant,
                    const Graded& graded) {
-    GradeRow row;
+    stats::GradeRow row;
     row.group = planned.group;
     row.cell = planned.name;
     row.algorithm = contestant.name;
@@ -154,7 +154,7 @@ class CellRun {
   }
 
   void write_left_out(const PlannedCell& planned, const Cell& cell, const LeftOut& left_out) {
-    GradeRow row;
+    stats::GradeRow row;
     row.group = planned.group;
     row.cell = planned.name;
     row.algorithm = left_out.name;
@@ -168,10 +168,10 @@ class CellRun {
                   int round, const std::vector<std::size_t>& order) {
     const measure::NoiseReading before = measure::NoiseReading::now();
     const base::Stopwatch whole;
-    std::vector<CellSampleRow> rows;
+    std::vector<stats::CellSampleRow> rows;
     for (std::size_t position = 0; position < order.size(); ++position) {
       const std::size_t i = order[position];
-      CellSampleRow row;
+      stats::CellSampleRow row;
       row.group = planned.group;
       row.cell = planned.name;
       row.algorithm = cell.contestants[i].name;
@@ -187,7 +187,7 @@ class CellRun {
     }
     const std::string noise =
         measure::noise_judge()(before, measure::NoiseReading::now(), whole.seconds(), 0);
-    for (CellSampleRow& row : rows) {
+    for (stats::CellSampleRow& row : rows) {
       row.noise = noise;
       folder_.write(raw_file, row);
     }

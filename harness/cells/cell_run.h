@@ -35,7 +35,4 @@ CellRunResult run_cells(const CellRequest& request, const std::filesystem::path&
                         record::FolderStart start,
                         const std::function<void(const std::string&)>& say);
 
-// Writes times.csv, best.csv and tables.md from the folder's rows, and returns a summary for the screen.
-std::string write_cell_tables(const std::filesystem::path& folder, const std::string& name);
-
 }  // namespace touchstone::cells

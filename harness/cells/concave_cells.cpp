@@ -8,13 +8,13 @@
 #include <memory>
 
 #include "algorithms/core/nearest_float.h"
-#include "algorithms/hull/convex_hull.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/hash.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
 #include "harness/cells/choices.h"
+#include "harness/cells/concave_setup.h"
 #include "harness/cells/kinds.h"
 #include "harness/geometry/shapes/named_mesh.h"
 
@@ -31,35 +31,8 @@ constexpr std::size_t most_exact_triangles = 3000;
 // A distance that is off by more than this part of the mesh's size is wrong.
 constexpr double greatest_distance_error = 1e-6;
 
-std::unique_ptr<ConcavePhase> make_phase(const ConcaveEntry& entry, Precision scalar) {
-  ConcaveSettings settings;
-  settings.scalar = scalar;
-  settings.mid_phase = find_mid_phase("wide-bvh")->make;
-  settings.narrow_phase = [] { return find_narrow_phase("certified")->make({}); };
-  return entry.make(settings);
-}
-
-// Names of convex bodies. Their greatest half extent is this part of the mesh's.
-constexpr std::array<std::string_view, 4> convex_names = {"sphere", "capsule", "box", "hull-32"};
+// The greatest half extent of a convex body, as a part of the mesh's.
 constexpr double convex_size = 0.05;
-
-// The shape with that greatest half extent (metres).
-Shape convex_shape(std::string_view name, double size, base::Random& random) {
-  Shape shape;
-  if (name == "hull-32") {
-    std::vector<Vec3d> points;
-    for (int i = 0; i < 32; ++i) points.push_back(nearest_float(Vec3d(size * random.on_sphere())));
-    return hull_of(std::move(points));
-  }
-  const auto rounded = [&](double part) { return nearest_float(Vec3d::Constant(part * size))[0]; };
-  shape.kind = name == "sphere"    ? ShapeKind::sphere
-               : name == "capsule" ? ShapeKind::capsule
-                                   : ShapeKind::box;
-  shape.radius = rounded(name == "sphere" ? 1 : 0.4);
-  shape.half_length = rounded(0.6);
-  shape.half_extents = {rounded(1), rounded(0.8), rounded(0.6)};
-  return shape;
-}
 
 // The second body is the last one: the convex one, or the mesh again.
 struct ConcaveInput {
@@ -185,14 +158,14 @@ Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std:
     input->bodies.push_back({nullptr, {{convex_shape(bodies.convex, input->size, shape), {}, 0}}});
   }
   const std::unique_ptr<ConcavePhase> placing =
-      make_phase(*find_concave_phase("fused"), Precision::float64);
+      make_phase(*find_concave_phase("fused"), Precision::float64, false);
   placing->bind(input->bodies);
   base::Random random(seed, static_cast<std::uint64_t>(place));
   for (std::size_t i = 0; i < count; ++i) place_pair(*input, place, *placing, random);
 
   const bool brute = mesh->triangles.size() <= most_exact_triangles;
   const std::unique_ptr<ConcavePhase> oracle =
-      make_phase(*find_concave_phase(brute ? "exact" : "part-pairs"), Precision::float64);
+      make_phase(*find_concave_phase(brute ? "exact" : "part-pairs"), Precision::float64, false);
   oracle->bind(input->bodies);
   Answers truth(count);
   truth.ask(*oracle, task, *input);
@@ -206,7 +179,7 @@ Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std:
       continue;
     for (const Precision scalar : entry->scalars) {
       if (!offers(*entry, task, scalar)) continue;
-      const std::shared_ptr<ConcavePhase> phase = make_phase(*entry, scalar);
+      const std::shared_ptr<ConcavePhase> phase = make_phase(*entry, scalar, false);
       phase->bind(input->bodies);
       const auto answers = std::make_shared<Answers>(count);
       Contestant made;

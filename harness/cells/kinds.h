@@ -14,6 +14,7 @@ std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesyste
 std::vector<PlannedCell> cast_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> motion_cells(files::TomlTable& table, const std::filesystem::path& home);
+std::vector<PlannedCell> sliding_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesystem::path& home);
 
 }  // namespace touchstone::cells

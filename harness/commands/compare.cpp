@@ -16,6 +16,7 @@
 #include "harness/record/build_info.h"
 #include "harness/record/machine.h"
 #include "harness/record/result_folder.h"
+#include "harness/stats/cells/cell_results.h"
 #include "harness/stats/comparison.h"
 
 namespace touchstone::commands {
@@ -81,6 +82,11 @@ int judge(const CompareOptions& options, const stats::Results& a, const stats::R
   return undecided > 0 || cells.empty() ? exit_undecided : exit_done;
 }
 
+stats::Results read(const std::filesystem::path& results) {
+  return stats::is_of_cells(results) ? stats::read_cell_results(results)
+                                     : stats::read_results(results);
+}
+
 int not_comparable(const std::vector<std::string>& reasons) {
   print("A and B may not be compared", reasons);
   return exit_bad_request;
@@ -91,8 +97,8 @@ int compare_files(const CompareOptions& options) {
     throw base::InputError(
         fmt::format("found {} results; expected two, A and B", options.files.size()));
   }
-  const stats::Results a = stats::read_results(options.files[0]);
-  const stats::Results b = stats::read_results(options.files[1]);
+  const stats::Results a = read(options.files[0]);
+  const stats::Results b = read(options.files[1]);
   const std::vector<std::string> reasons = stats::obstacles(a, b, !options.any_machine);
   if (!reasons.empty()) return not_comparable(reasons);
   return judge(options, a, b, stats::compare(a, b, options.noise()));
@@ -111,7 +117,7 @@ stats::Results run(const std::string& program, const std::string& campaign,
     throw base::InputError(fmt::format("'{} run {}' ended with status {}; its output is in {}",
                                        program, campaign, status, log.string()));
   }
-  return stats::read_results(folder);
+  return read(folder);
 }
 
 int compare_programs(const CompareOptions& options) {

@@ -18,6 +18,9 @@
 #include "harness/files/row_file.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
+#include "harness/record/facts.h"
+#include "harness/stats/cells/cell_results.h"
+#include "harness/stats/cells/cell_tables.h"
 #include "harness/stats/machines/machine_tables.h"
 #include "harness/stats/table_check.h"
 #include "harness/stats/tables/tables.h"
@@ -50,12 +53,26 @@ std::optional<record::RowOrigin> origin_of(bool narrow, const std::string& name)
   return narrow ? origin_among(narrow_phases(), name) : origin_among(broad_phases(), name);
 }
 
+int write_of_cells(const std::filesystem::path& folder, const std::filesystem::path& out) {
+  std::filesystem::create_directories(out);
+  const std::string name = record::value_of(record::read_facts(folder / "machine.csv"), "cells");
+  fmt::print("{}Tables in {}\n", stats::write_cell_tables(folder, name, out), out.string());
+  return exit_done;
+}
+
 int write(const TablesOptions& options) {
   const bool is_folder = std::filesystem::is_directory(options.results);
   const std::filesystem::path of(options.results);
   const std::filesystem::path folder = !options.out.empty() ? std::filesystem::path(options.out)
                                        : is_folder          ? of
                                                             : of.parent_path();
+  if (stats::is_of_cells(of)) {
+    if (options.noisy)
+      throw base::InputError(options.results, 0,
+                             "is of a campaign with [cells], whose disturbed rounds count only "
+                             "where most were disturbed; expected no --noisy");
+    return write_of_cells(is_folder ? of : of.parent_path(), folder);
+  }
   const stats::ReportSetting setting = {
       .noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out,
       .depth_error = options.depth_error};
@@ -154,6 +171,11 @@ int tables(const TablesOptions& options) {
     throw base::InputError((reference / "ratios.csv").string(), 0,
                            "cannot be read; expected a reference with tables (`touchstone tables "
                            "REFERENCE` writes them)");
+  }
+  if (!options.results.empty() && stats::is_of_cells(options.results)) {
+    throw base::InputError(options.results, 0,
+                           "is of a campaign with [cells], whose tables state no band; expected "
+                           "results of a campaign of scenes (`touchstone compare` takes cells)");
   }
   const std::filesystem::path results = options.results.empty()
                                             ? run_again(reference, options)

@@ -13,6 +13,7 @@
 #include "harness/base/table.h"
 #include "harness/cells/motion/motion_front.h"
 #include "harness/commands/commands.h"
+#include "harness/stats/cells/cell_tables.h"
 #include "harness/trade/trade_files.h"
 
 namespace touchstone::commands {
@@ -54,7 +55,7 @@ int run_motion_trade(const TradeOptions& options) {
       cells::run_cells(trade.cells, folder, record::FolderStart::overwrite,
                        [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   if (result.interrupted) return exit_bad_request;
-  cells::write_cell_tables(folder, trade.cells.name);
+  stats::write_cell_tables(folder, trade.cells.name, folder);
   fmt::print("{}\n", cells::write_motion_front(trade, folder));
   fmt::print("{}: points.csv, front.csv, front.md, tables.md, raw.csv\n", folder.string());
   if (!options.plain) draw(folder);

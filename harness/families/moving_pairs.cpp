@@ -7,57 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/core/bounds.h"
 #include "algorithms/hull/convex_hull.h"
+#include "harness/geometry/shapes/scaled_shape.h"
 
 namespace touchstone::families {
 namespace {
-
-Vec3d support_in_body(const Shape& s, const Vec3d& d) {
-  const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
-  const double across = std::sqrt(d.x() * d.x() + d.y() * d.y());
-  const Vec3d rim =
-      across > 0 ? Vec3d(s.radius * d.x() / across, s.radius * d.y() / across, 0) : Vec3d(0, 0, 0);
-  switch (s.kind) {
-    case ShapeKind::sphere: return s.radius * d.normalized();
-    case ShapeKind::capsule:
-      return s.radius * d.normalized() + Vec3d(0, 0, sign(d.z()) * s.half_length);
-    case ShapeKind::box:
-      return {sign(d.x()) * s.half_extents.x(), sign(d.y()) * s.half_extents.y(),
-              sign(d.z()) * s.half_extents.z()};
-    case ShapeKind::cylinder: return rim + Vec3d(0, 0, sign(d.z()) * s.half_length);
-    case ShapeKind::cone: {
-      const Vec3d tip(0, 0, s.half_length), base = rim - tip;
-      return d.dot(tip) > d.dot(base) ? tip : base;
-    }
-    case ShapeKind::ellipsoid: {
-      const Vec3d e = s.radii.cwiseProduct(d);
-      return s.radii.cwiseProduct(e / e.norm());
-    }
-    case ShapeKind::hull: {
-      Vec3d best = s.hull->vertices[0];
-      for (const Vec3d& v : s.hull->vertices) {
-        if (d.dot(v) > d.dot(best)) best = v;
-      }
-      return best;
-    }
-    case ShapeKind::halfspace: break;
-  }
-  return Vec3d::Zero();
-}
-
-Shape scaled_shape(Shape s, double factor) {
-  s.radius *= factor;
-  s.half_length *= factor;
-  s.half_extents *= factor;
-  s.radii *= factor;
-  s.offset *= factor;
-  if (s.kind == ShapeKind::hull) {
-    std::vector<Vec3d> vertices = s.hull->vertices;
-    for (Vec3d& v : vertices) v *= factor;
-    s.hull = make_hull(std::move(vertices));
-  }
-  return s;
-}
 
 // Places b so that its support along -normal is at `gap` from a's along +normal, and moves both.
 void place(MovingPairCase& c, const Vec3d& normal, double gap) {
@@ -104,10 +59,6 @@ Shape hull_shape(std::vector<Vec3d> vertices) {
   shape.kind = ShapeKind::hull;
   shape.hull = make_hull(std::move(vertices));
   return shape;
-}
-
-Vec3d support_point(const Shape& shape, const Pose& pose, const Vec3d& direction) {
-  return pose(support_in_body(shape, pose.rotation.transpose() * direction));
 }
 
 Shape random_shape(ShapeKind kind, Draws& random) {
@@ -199,8 +150,8 @@ MovingPairCase passing(ShapeKind a, ShapeKind b, ContactFeature feature, double 
 }
 
 MovingPairCase scaled(MovingPairCase c, double factor) {
-  c.a = scaled_shape(c.a, factor);
-  c.b = scaled_shape(c.b, factor);
+  c.a = geometry::scaled_shape(c.a, factor);
+  c.b = geometry::scaled_shape(c.b, factor);
   c.pose_a.translation *= factor;
   c.pose_b.translation *= factor;
   c.motion_a.displacement *= factor;

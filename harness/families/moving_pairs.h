@@ -35,9 +35,6 @@ Shape round_shape(ShapeKind kind, double radius, double half_length);
 Shape box_shape(const Vec3d& half_extents);
 Shape hull_shape(std::vector<Vec3d> vertices);
 
-// The point of the body furthest in a world direction, in the world; not for half-spaces.
-Vec3d support_point(const Shape& shape, const Pose& pose, const Vec3d& direction);
-
 // A bounded shape of a kind, of sizes between 0.3 and 1.
 Shape random_shape(ShapeKind kind, Draws& random);
 

@@ -20,6 +20,8 @@
 #include "harness/files/byte_reader.h"
 #include "harness/files/row_file.h"
 #include "harness/report/case_view.h"
+#include "harness/stats/cells/cell_results.h"
+#include "harness/stats/cells/cell_tables.h"
 #include "harness/stats/samples.h"
 #include "harness/stats/tables/tables.h"
 
@@ -118,8 +120,12 @@ void add_tables(const fs::path& folder, files::OrderedJson& shown, files::Ordere
     fs::remove_all(name, ignored);
   });
   try {
-    stats::write_tables(stats::make_tables(stats::read_results(folder), stats::Noise::left_out), 0,
-                        name);
+    if (stats::is_of_cells(folder)) {
+      stats::write_cell_tables(folder, "cells", name);
+    } else {
+      stats::write_tables(stats::make_tables(stats::read_results(folder), stats::Noise::left_out),
+                          0, name);
+    }
     shown.update(csv_files(name, notes));
   } catch (const base::InputError& error) {
     add_note(notes, error.what());  // a run that was stopped has half a row, or none

@@ -43,6 +43,7 @@ std::optional<Change> change(const Check& a, const Check& b) {
     return Change{"pair count", known(a.pair_count), known(b.pair_count)};
   }
   if (a.pair_hash != b.pair_hash) return Change{"pair hash", a.pair_hash, b.pair_hash};
+  if (a.grade != b.grade) return Change{"grade", a.grade, b.grade};
   if (a.contact_count != b.contact_count) {
     return Change{"contact count", known(a.contact_count), known(b.contact_count)};
   }

@@ -20,6 +20,7 @@ std::string_view to_string(Work work) {
 }
 
 std::string SetKey::words() const {
+  if (boxes.empty()) return scene;  // of a cell run, whose sets have nothing else
   std::string text = fmt::format("{}, {} bodies, {} boxes, {} thread{}", scene, bodies, boxes,
                                  threads, threads == 1 ? "" : "s");
   if (!seed.empty()) text += ", seed " + seed;

@@ -35,7 +35,8 @@ struct SetKey {
 
   bool narrow() const { return !task.empty(); }
   auto operator<=>(const SetKey&) const = default;
-  // A text such as "uniform, 1000 bodies, tight boxes, 2 threads, broad phases".
+  // A text such as "uniform, 1000 bodies, tight boxes, 2 threads, broad phases"; of a cell run its
+  // scene, "hit, box".
   std::string words() const;
 };
 
@@ -77,6 +78,7 @@ struct Check {
   double worst_error = 0;  // error of a distance or depth; NaN if there is none
   std::optional<record::RowStatus> status;
   std::string pair_hash, outcome_hash;
+  std::string grade;  // of a cell run: how the answers compare with exact ones, in words
   std::int64_t pair_count = -1, contact_count = -1, disagreements = -1, failures = -1,
                compared = -1;
   std::array<std::int64_t, work_count> work = unknown_work();

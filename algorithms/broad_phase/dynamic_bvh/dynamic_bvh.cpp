@@ -29,13 +29,13 @@
 // Cost:    O(n + k) expected if most bodies move; O(m log n) and copying the k pairs if m do, or
 //          writing the changes alone, for m below n / 5. O(n + k) memory; k = pairs of fat boxes.
 //          About 65 bytes a body, 20 more if many move, and 25 a pair.
-#include <algorithm>
-#include <array>
+#include <functional>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/broad_phase/dynamic_bvh/aabb_margin.h"
 #include "algorithms/broad_phase/dynamic_bvh/hilbert_rtree.h"
 #include "algorithms/broad_phase/dynamic_bvh/pair_cache.h"
+#include "algorithms/broad_phase/dynamic_bvh/partner_search.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/kernels/boxes/aabb_measure.h"
 
@@ -64,7 +64,6 @@ class DynamicBvh final : public BroadPhase {
   }
 
  private:
-  static constexpr std::size_t bodies_a_task = 64;
   static constexpr std::size_t nodes_a_task = 256;
   // If more than this fraction of the bodies (1 / few) leave their boxes, all is made anew.
   static constexpr std::size_t few = 16;
@@ -83,16 +82,6 @@ class DynamicBvh final : public BroadPhase {
   // then kept; or the kept pairs.
   enum class Pairs : std::uint8_t { searched, wanted, kept };
 
-  // The bodies whose fat boxes overlap those of a task's leavers, and where those of each leaver
-  // end.
-  struct Partners {
-    std::vector<std::uint32_t> ids;
-    std::array<std::size_t, bodies_a_task> ends;
-  };
-
-  std::size_t end_of_task(std::size_t task) const {
-    return std::min((task + 1) * bodies_a_task, leavers_.size());
-  }
   Aabb fat_box_of(std::uint32_t id) const {
     const Bvh16& tree = bulk_.tree();
     return tree.box_at(tree.place_of(id));
@@ -120,7 +109,7 @@ class DynamicBvh final : public BroadPhase {
   std::vector<std::uint8_t> state_;  // indexed by body
   // Bodies that have left their boxes, or are new, in this frame.
   std::vector<std::uint32_t> leavers_;
-  std::vector<Partners> found_;  // their partners, of a task each
+  PartnerSearch partners_;
   // All pairs of this frame, and those of the last call of find_changes; unless the cache has both.
   PairSink all_;
   PairHistory told_;
@@ -237,30 +226,10 @@ void DynamicBvh::change_tree(const FrameChange& change) {
 
 // Finds the leavers' partners, and changes the kept pairs to suit.
 void DynamicBvh::look_anew() {
-  const std::size_t tasks = block_count(leavers_.size(), bodies_a_task);
-  if (found_.size() < tasks) found_.resize(tasks);
-  const auto look = [&](std::size_t task, int worker) {
-    Bvh16Scratch& scratch = bulk_.scratch(worker);
-    Partners& out = found_[task];
-    out.ids.clear();
-    for (std::size_t i = task * bodies_a_task; i < end_of_task(task); ++i) {
-      for (const std::uint32_t other : bulk_.tree().find(fat_box_of(leavers_[i]), scratch)) {
-        if (other != leavers_[i]) out.ids.push_back(other);
-      }
-      out.ends[i % bodies_a_task] = out.ids.size();
-    }
+  const auto replace = [&](std::uint32_t leaver, std::span<const std::uint32_t> partners) {
+    placed_ += pairs_.replace(leaver, partners, boxes_);
   };
-  executor_.run(tasks, std::cref(look));
-  for (std::size_t task = 0; task < tasks; ++task) {
-    const Partners& found = found_[task];
-    std::size_t begin = 0;
-    for (std::size_t i = task * bodies_a_task; i < end_of_task(task); ++i) {
-      const std::size_t end = found.ends[i % bodies_a_task];
-      placed_ +=
-          pairs_.replace(leavers_[i], std::span(found.ids).subspan(begin, end - begin), boxes_);
-      begin = end;
-    }
-  }
+  partners_.find(executor_, bulk_, leavers_, replace);
 }
 
 // --- the pairs ---
@@ -329,8 +298,7 @@ BroadPhaseWork DynamicBvh::work() const {
   } else {
     work = bulk_.work();
   }
-  work.bytes = sum_held_bytes(bulk_, pairs_, state_, leavers_, found_);
-  for (const Partners& found : found_) work.bytes += sum_held_bytes(found.ids);
+  work.bytes = sum_held_bytes(bulk_, pairs_, state_, leavers_, partners_);
   work.placed = static_cast<std::int64_t>(placed_);
   return work;
 }

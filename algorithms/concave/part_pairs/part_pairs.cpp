@@ -12,7 +12,8 @@
 //          4. Where no parts meet and a body is solid, exact winding numbers tell whether a piece of
 //             the other lies inside (interior).
 //          5. distance: the trees' nearest pairs first (part_distance).
-//          6. measure: the narrow phase gives each pair's depth and normal.
+//          6. measure: the narrow phase gives each pair's depth and normal. Where these are to be welded,
+//             a normal that the mesh around does not support gives way to the face's (welding).
 // Departs: `moller` and `guigue-devillers` decide each pair of triangles in doubles, as their papers
 //          do, and are wrong where rounding is.
 // Fails:   poses of parts within turned compounds are rounded; where that hides a verdict the answer
@@ -28,6 +29,7 @@
 #include "algorithms/concave/part_pairs/interior.h"
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
 #include "algorithms/concave/part_pairs/part_distance.h"
+#include "algorithms/concave/part_pairs/welding.h"
 #include "algorithms/concave_phase.h"
 
 namespace touchstone {
@@ -38,6 +40,7 @@ class PartPairs final : public ConcavePhase {
   // A null test makes `fused`.
   PartPairs(const ConcaveSettings& settings, RoughTest test)
       : trees_(std::make_shared<MeshTrees>()), convex_pairs_(settings.narrow_phase) {
+    if (settings.welds) welding_.emplace();
     if (test == nullptr) {
       mesh_pairs_ = fused_pairs(trees_);
       search_.emplace(trees_);
@@ -65,6 +68,7 @@ class PartPairs final : public ConcavePhase {
     mesh_pairs_->bind(bodies_);
     convex_pairs_.bind(bodies_);
     distances_.bind(bodies_, *trees_);
+    if (welding_) welding_->bind(bodies_);
   }
 
   void solve(ConcaveTask task, const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome,
@@ -111,6 +115,7 @@ class PartPairs final : public ConcavePhase {
       contact.normal = found.normal;
       contact.depth = std::max(0.0, -found.distance);
       contact.point = (found.witness_a + found.witness_b) / 2;
+      if (welding_) welding_->mend(a, found.witness_a, b, found.witness_b, contact);
     }
     return true;
   }
@@ -193,6 +198,7 @@ class PartPairs final : public ConcavePhase {
   std::optional<ConvexSearch> search_;  // of `fused`
   ConvexPairs convex_pairs_;
   PartDistance distances_;
+  std::optional<Welding> welding_;
   std::vector<IndexPair> waiting_;
 };
 
@@ -232,7 +238,7 @@ std::vector<ConcaveEntry> concave_part_pairs() {
   for (ConcaveEntry& made : entries) {
     made.takes_mid_phase = made.info.name != "fused";
     made.approximate = made.info.name == "moller" || made.info.name == "guigue-devillers";
-    made.measures = !made.approximate;
+    made.measures = made.welds = !made.approximate;
     if (!made.approximate) continue;
     made.supports = both_are_meshes;
     made.tasks = {ConcaveTask::intersect, ConcaveTask::contacts};

@@ -4,7 +4,8 @@
 //          shape and each triangle whose box it meets), btCompoundShape.
 // Departs: the adapter asks for contacts, since Bullet has no yes-or-no question, and takes those whose
 //          distance is not above zero. Margins are 0 on meshes, triangles and shapes (Bullet's defaults of
-//          0.01 and 0.04 make bodies thicker); spheres and capsules are their margins. Poses are relative to
+//          0.01 and 0.04 make bodies thicker); spheres and capsules are their margins. Contacts of a mesh are
+//          welded by btInternalEdgeUtility, which adjusts the normal and keeps the depth. Poses are relative to
 //          the first body's origin, subtracted in double. Only the build in float is used.
 // Fails:   GImpact has no axes across two edges: it sees contact where edges pass each other. Both miss
 //          touches of degenerate triangles, and all lengths are compared with absolute thresholds.
@@ -16,45 +17,28 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionDispatch/btInternalEdgeUtility.h>
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+#include <BulletCollision/CollisionShapes/btTriangleInfoMap.h>
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 
 #include <algorithm>
 
 #include "algorithms/peers/bullet_bodies.h"
+#include "algorithms/peers/concave/bullet_touching_parts.h"
 
 namespace touchstone::bullet {
 namespace {
-
-// Collects the pairs of parts of each contact of the first body and the second. Bullet may ask with the
-// bodies in either order; numbers are told to the body that they belong to.
-struct TouchingParts final : btManifoldResult {
-  std::vector<IndexPair>& pairs;
-  bool numbered_a, numbered_b;  // false for a body of one part, of which Bullet gives no number
-
-  TouchingParts(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, bool number_a,
-                bool number_b, std::vector<IndexPair>& list)
-      : btManifoldResult(a, b), pairs(list), numbered_a(number_a), numbered_b(number_b) {
-    m_partId0 = m_partId1 = m_index0 = m_index1 = -1;
-  }
-  void addContactPoint(const btVector3&, const btVector3&, btScalar distance) override {
-    if (!(distance <= 0)) return;
-    const auto number = [](bool numbered, int index) {
-      return numbered ? static_cast<std::uint32_t>(index) : 0;
-    };
-    pairs.push_back({number(numbered_a, m_index0), number(numbered_b, m_index1)});
-  }
-};
 
 // A body as Bullet has it. The shapes that make it up are kept with it.
 struct MeshBody {
   std::vector<btScalar> vertices;
   std::vector<int> corners;
   std::unique_ptr<btTriangleIndexVertexArray> arrays;
+  std::unique_ptr<btTriangleInfoMap> edges;  // for contacts that are welded
   std::vector<Body> parts;
   std::unique_ptr<btCollisionShape> whole;  // null if the body is one convex part, or none
   Pose of_part;                             // of that one part
@@ -118,7 +102,8 @@ void set_parts(const std::vector<ConvexPart>& parts, MeshBody& body) {
 
 class BulletMeshes final : public ConcavePhase {
  public:
-  explicit BulletMeshes(bool gimpact) : gimpact_(gimpact), dispatcher_(&configuration_) {
+  BulletMeshes(bool gimpact, bool welds)
+      : gimpact_(gimpact), welds_(welds), dispatcher_(&configuration_) {
     btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
   }
 
@@ -130,6 +115,7 @@ class BulletMeshes final : public ConcavePhase {
         set_parts(bodies[i].parts, bodies_[i]);
       } else if (!bodies[i].mesh->triangles.empty()) {
         set_mesh(*bodies[i].mesh, gimpact_, bodies_[i]);
+        if (welds_ && !gimpact_) find_edges(bodies_[i]);
       }
     }
   }
@@ -141,9 +127,7 @@ class BulletMeshes final : public ConcavePhase {
     outcome.answer = Answer::separated;
     const MeshBody &body_a = bodies_[a.body], &body_b = bodies_[b.body];
     if (body_a.shape() == nullptr || body_b.shape() == nullptr) return;
-    place(0, body_a, a.pose, a.pose.translation);
-    place(1, body_b, b.pose, a.pose.translation);
-    collide(body_a, body_b, pairs);
+    collide(a, b, pairs, nullptr);
     if (!pairs.empty()) outcome.answer = Answer::overlapping;
     if (task != ConcaveTask::contacts) {
       pairs.clear();
@@ -155,7 +139,39 @@ class BulletMeshes final : public ConcavePhase {
     pairs.erase(repeated.begin(), repeated.end());
   }
 
+  // Of a pair's contacts the deepest.
+  bool measure(const PlacedConcave& a, const PlacedConcave& b, std::span<const IndexPair> pairs,
+               std::vector<PartContact>& contacts) override {
+    if (gimpact_) return false;
+    contacts.clear();
+    const MeshBody &body_a = bodies_[a.body], &body_b = bodies_[b.body];
+    if (body_a.shape() == nullptr || body_b.shape() == nullptr) return true;
+    std::vector<IndexPair> touching;
+    std::vector<PartContact> found;
+    collide(a, b, touching, &found);
+    std::ranges::stable_sort(found, [](const PartContact& x, const PartContact& y) {
+      return x.parts != y.parts ? x.parts < y.parts : x.depth > y.depth;
+    });
+    for (const IndexPair& pair : pairs) {
+      const auto at = std::ranges::lower_bound(found, pair, {}, &PartContact::parts);
+      PartContact& contact = contacts.emplace_back();
+      contact.parts = pair;
+      contact.status = Status::not_reported;
+      if (at == found.end() || at->parts != pair) continue;
+      contact = *at;
+      if (body_b.arrays != nullptr) contact.normal = -contact.normal;
+      contact.point += a.pose.translation;
+    }
+    return true;
+  }
+
  private:
+  static void find_edges(MeshBody& body) {
+    body.edges = std::make_unique<btTriangleInfoMap>();
+    btGenerateInternalEdgeInfo(static_cast<btBvhTriangleMeshShape*>(body.whole.get()),
+                               body.edges.get());
+  }
+
   void place(int side, const MeshBody& body, const Pose& pose, const Vec3d& origin) {
     btCollisionObject& object = objects_[side];
     object.setCollisionShape(body.shape());
@@ -164,7 +180,11 @@ class BulletMeshes final : public ConcavePhase {
         btTransform(to_matrix(pose.rotation * body.of_part.rotation), to_bullet(offset)));
   }
 
-  void collide(const MeshBody& a, const MeshBody& b, std::vector<IndexPair>& pairs) {
+  void collide(const PlacedConcave& placed_a, const PlacedConcave& placed_b,
+               std::vector<IndexPair>& pairs, std::vector<PartContact>* contacts) {
+    const MeshBody &a = bodies_[placed_a.body], &b = bodies_[placed_b.body];
+    place(0, a, placed_a.pose, placed_a.pose.translation);
+    place(1, b, placed_b.pose, placed_a.pose.translation);
     btCollisionObject *first = &objects_[0], *second = &objects_[1];
     const btCollisionObjectWrapper wrap_a(nullptr, first->getCollisionShape(), first,
                                           first->getWorldTransform(), -1, -1);
@@ -174,12 +194,14 @@ class BulletMeshes final : public ConcavePhase {
     btCollisionAlgorithm* algorithm =
         dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
     TouchingParts result(&wrap_a, &wrap_b, a.numbered, b.numbered, pairs);
+    result.contacts = contacts;
+    result.welds = welds_;
     algorithm->processCollision(&wrap_a, &wrap_b, info_, &result);
     algorithm->~btCollisionAlgorithm();
     dispatcher_.freeCollisionAlgorithm(algorithm);
   }
 
-  bool gimpact_;
+  bool gimpact_, welds_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDispatcherInfo info_;
@@ -187,11 +209,11 @@ class BulletMeshes final : public ConcavePhase {
   std::vector<MeshBody> bodies_;
 };
 
-std::unique_ptr<ConcavePhase> make_gimpact(const ConcaveSettings&) {
-  return std::make_unique<BulletMeshes>(true);
+std::unique_ptr<ConcavePhase> make_gimpact(const ConcaveSettings& settings) {
+  return std::make_unique<BulletMeshes>(true, settings.welds);
 }
-std::unique_ptr<ConcavePhase> make_tree(const ConcaveSettings&) {
-  return std::make_unique<BulletMeshes>(false);
+std::unique_ptr<ConcavePhase> make_tree(const ConcaveSettings& settings) {
+  return std::make_unique<BulletMeshes>(false, settings.welds);
 }
 
 }  // namespace
@@ -236,6 +258,8 @@ std::vector<ConcaveEntry> peers_bullet_meshes() {
                  return (is_surface(a) && is_compound(b)) || (is_compound(a) && is_surface(b)) ||
                         (is_compound(a) && is_compound(b));
                },
+           .measures = true,
+           .welds = true,
            .approximate = true,
            .make = bullet::make_tree}};
 }

@@ -8,8 +8,8 @@
 
 #include "harness/base/table.h"
 #include "harness/campaign/selection.h"
-#include "harness/cells/cell_rows.h"
 #include "harness/files/text_file.h"
+#include "harness/stats/cells/cell_rows.h"
 #include "harness/trade/front.h"
 
 namespace touchstone::cells {
@@ -23,8 +23,8 @@ constexpr std::array<const char*, 3> narrow_names = {"closed-form+gjk", "closed-
 // The share of the time that goes into samples; the rest prepares and grades.
 constexpr double sample_share = 0.6;
 
-MotionPointRow point_of(const MotionMethod& method, const CellTimeRow& time, double bodies) {
-  const GradeRow& grade = time.grade;
+MotionPointRow point_of(const MotionMethod& method, const stats::CellTimeRow& time, double bodies) {
+  const stats::GradeRow& grade = time.grade;
   MotionPointRow row;
   row.point = method.name;
   row.status = grade.status;
@@ -100,11 +100,11 @@ MotionTrade plan_motion_trade(const MotionRequest& request, double seconds) {
 }
 
 std::string write_motion_front(const MotionTrade& trade, const std::filesystem::path& folder) {
-  const auto times = record::read_rows<CellTimeRow>(folder / "times.csv");
+  const auto times = record::read_rows<stats::CellTimeRow>(folder / "times.csv");
   std::vector<MotionPointRow> points;
   for (const MotionMethod& method : trade.methods) {
     const auto time = std::ranges::find_if(
-        times, [&](const CellTimeRow& row) { return row.grade.algorithm == method.name; });
+        times, [&](const stats::CellTimeRow& row) { return row.grade.algorithm == method.name; });
     if (time != times.end())
       points.push_back(point_of(method, *time, static_cast<double>(trade.bodies)));
   }

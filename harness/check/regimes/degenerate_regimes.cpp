@@ -5,6 +5,7 @@
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
 #include "harness/check/regimes/regime_draws.h"
+#include "harness/geometry/shapes/scaled_shape.h"
 
 namespace touchstone::check {
 namespace {
@@ -97,20 +98,6 @@ Shape zero_sized(std::uint64_t seed, base::Random& random) {
   return shape;
 }
 
-Points scaled_points(Points points, double size) {
-  for (Vec3d& p : points) p *= size;
-  return points;
-}
-
-Shape sized(Shape shape, double size) {
-  if (shape.kind == ShapeKind::hull) return hull_of(scaled_points(shape.hull->vertices, size));
-  shape.radius *= size;
-  shape.half_length *= size;
-  shape.half_extents *= size;
-  shape.radii *= size;
-  return shape;
-}
-
 Shape any_degenerate(std::uint64_t seed, base::Random& random) {
   switch (random.below(5)) {
     case 0: return hull_of(flat_points(random));
@@ -174,10 +161,11 @@ RegimeCase draw_scaled_degenerate(RegimeDraw& draw) {
   const double size = random.magnitude(1e-9, 1e9);
   RegimeCase result;
   files::Case& c = result.pair;
-  c.shape_a = sized(any_degenerate(draw.seed, random), size);
-  c.shape_b = sized(random.below(2) == 0 ? any_degenerate(draw.seed, random)
+  c.shape_a = geometry::scaled_shape(any_degenerate(draw.seed, random), size);
+  c.shape_b = geometry::scaled_shape(random.below(2) == 0
+                                         ? any_degenerate(draw.seed, random)
                                          : random_shape(random_kind(random), {}, draw.seed, random),
-                    size);
+                                     size);
   result.detail = place_by_amount(c, random_amount(random), random);
   swap_at_random(c, random);
   return result;

@@ -42,6 +42,7 @@ const Arguments::Choices<QueryTask>& query_tasks() {
 
 struct QueryOptions {
   std::string cases, narrow, out, id, pairs, contacts;
+  bool welded = false;
   std::string mid = "wide-bvh", parts = "certified";
   QueryTask asked = query_tasks()[0].second;
   Task task = Task::intersect;  // of narrow phases
@@ -116,7 +117,8 @@ void ask_concave_phases(const QueryOptions& options, const std::vector<files::Co
                  .time_limit = options.time_limit,
                  .out = options.out,
                  .pairs = options.pairs,
-                 .contacts = options.contacts},
+                 .contacts = options.contacts,
+                 .welds = options.welded},
                 cases);
 }
 
@@ -157,6 +159,9 @@ void query(QueryOptions& options) {
   }
   if (!options.contacts.empty() && options.asked.of_convex) {
     throw base::InputError("--contacts was given; expected it with --task contacts alone");
+  }
+  if (options.welded && options.contacts.empty()) {
+    throw base::InputError("--welded was given; expected it with --contacts alone");
   }
   if (asks_concave_phases(options, cases)) return ask_concave_phases(options, cases);
   options.task = *options.asked.of_convex;
@@ -203,6 +208,10 @@ void add_query(Arguments command) {
                "With --task contacts: the CSV file of the pairs of parts that share a point");
   command.text("--contacts", options->contacts,
                "With --task contacts: the CSV file of these pairs' normals, depths and points");
+  command.flag(
+      "--welded", options->welded,
+      "With --contacts: where neighbours of a triangle are in the way of a normal, the contact "
+      "has the face's");
   command.text("--mid", options->mid, "Concave phases: the mid-phase that finds pairs of parts")
       .show_default();
   command

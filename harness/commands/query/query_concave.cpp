@@ -45,9 +45,10 @@ class ConcaveQueryRun {
           "expected one that does, such as certified",
           query.parts));
     }
-    settings_ = {.scalar = query.scalar, .mid_phase = mid->make, .narrow_phase = [parts] {
-                   return parts->make(NarrowPhaseSettings{});
-                 }};
+    settings_ = {.scalar = query.scalar,
+                 .mid_phase = mid->make,
+                 .narrow_phase = [parts] { return parts->make(NarrowPhaseSettings{}); },
+                 .welds = query.welds};
   }
 
   ConcaveAnswers ask(const ConcaveEntry& entry) const {
@@ -112,7 +113,8 @@ class ConcaveQueryRun {
       const std::size_t count = all.answers[i].pair_count;
       if (count == 0) continue;
       process::SharedArray<IndexPair> fetched(count);
-      const bool measured = !query_.contacts.empty() && all.entry->measures;
+      const bool measured =
+          !query_.contacts.empty() && all.entry->measures && (!query_.welds || all.entry->welds);
       process::SharedArray<PartContact> fetched_contacts(measured ? count : 1);
       const process::IsolationLimits limits = {.item_seconds = query_.time_limit};
       const auto report = process::isolate(1, limits, [&]() -> process::ItemWork {
@@ -162,7 +164,7 @@ void write_pairs(const std::string& file, const std::vector<files::ConcaveCase>&
 void write_contacts(const std::string& file, const std::vector<files::ConcaveCase>& cases,
                     const std::vector<ConcaveAnswers>& all) {
   files::CsvWriter csv(file, {"id", "algorithm", "a_part", "b_part", "status", "depth", "normal_x",
-                              "normal_y", "normal_z", "point_x", "point_y", "point_z"});
+                              "normal_y", "normal_z", "point_x", "point_y", "point_z", "welded"});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const ConcaveAnswers& answers : all) {
       for (const PartContact& contact : answers.contacts[i]) {
@@ -174,6 +176,7 @@ void write_contacts(const std::string& file, const std::vector<files::ConcaveCas
             .field(contact.depth);
         for (const double x : contact.normal) csv.field(x);
         for (const double x : contact.point) csv.field(x);
+        csv.field(contact.is_welded ? 1 : 0);
         csv.end_row();
       }
     }

@@ -18,6 +18,7 @@ struct ConcaveQuery {
   std::string out;         // the CSV file of answers
   std::string pairs;       // the CSV file of pairs of parts; none if empty
   std::string contacts;    // the CSV file of their depths and normals; none if empty
+  bool welds = false;      // contacts of a mesh heed the triangles around
 };
 
 // Asks concave phases about the cases, writes a row for each answer, and prints a summary. Throws

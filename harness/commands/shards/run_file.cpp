@@ -14,6 +14,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/commands/trade.h"
 #include "harness/shards/shard_run.h"
+#include "harness/stats/cells/cell_tables.h"
 
 namespace touchstone::commands {
 namespace {
@@ -79,8 +80,6 @@ int run_cases(const RunFileOptions& options) {
 }
 
 int run_cells(const RunFileOptions& options) {
-  if (options.with_page)
-    throw base::InputError(options.file + " has a table [cells]; expected no --report with it");
   const cells::CellRequest request = cells::read_cells(options.file);
   const std::filesystem::path folder = results_folder(options.out, request.name);
   const cells::CellRunResult result =
@@ -90,7 +89,9 @@ int run_cells(const RunFileOptions& options) {
     fmt::print(stderr, "touchstone: interrupted; whole cells are kept, and --resume goes on\n");
     return exit_bad_request;
   }
-  fmt::print("{}Tables in {}\n", cells::write_cell_tables(folder, request.name), folder.string());
+  fmt::print("{}Tables in {}\n", stats::write_cell_tables(folder, request.name, folder),
+             folder.string());
+  if (options.with_page) make_page(folder);
   return result.ours_wrong ? exit_measured_wrong : exit_done;
 }
 

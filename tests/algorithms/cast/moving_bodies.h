@@ -1,6 +1,7 @@
 // Casts of moving pairs with a known answer, and what every cast must keep of it. For tests.
 #pragma once
 
+#include "algorithms/core/bounds.h"
 #include "algorithms/registry.h"
 #include "harness/families/moving_pairs.h"
 
@@ -14,7 +15,6 @@ using families::passing;
 using families::pose_at;
 using families::random_shape;
 using families::scaled;
-using families::support_point;
 using families::swapped;
 using Random = families::RandomDraws;
 

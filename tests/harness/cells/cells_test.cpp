@@ -6,9 +6,11 @@
 #include <string>
 
 #include "harness/base/error.h"
-#include "harness/cells/cell_rows.h"
 #include "harness/cells/motion/motion_front.h"
 #include "harness/cells/read_cells.h"
+#include "harness/stats/cells/cell_results.h"
+#include "harness/stats/cells/cell_rows.h"
+#include "harness/stats/cells/cell_tables.h"
 #include "tests/harness/columns_page.h"
 #include "tests/harness/temporary_folder.h"
 
@@ -26,17 +28,17 @@ cells::CellRequest request_of(const TemporaryFolder& folder, const std::string& 
 
 struct Ran {
   cells::CellRunResult result;
-  std::vector<cells::GradeRow> grades;
-  std::vector<cells::CellTimeRow> times;
-  std::vector<cells::CellBestRow> best;
+  std::vector<stats::GradeRow> grades;
+  std::vector<stats::CellTimeRow> times;
+  std::vector<stats::CellBestRow> best;
 };
 Ran run(const cells::CellRequest& request, const std::filesystem::path& out) {
   Ran ran;
   ran.result = cells::run_cells(request, out, record::FolderStart::overwrite, [](const auto&) {});
-  cells::write_cell_tables(out, request.name);
-  ran.grades = record::read_rows<cells::GradeRow>(out / "grades.csv");
-  ran.times = record::read_rows<cells::CellTimeRow>(out / "times.csv");
-  ran.best = record::read_rows<cells::CellBestRow>(out / "best.csv");
+  stats::write_cell_tables(out, request.name, out);
+  ran.grades = record::read_rows<stats::GradeRow>(out / "grades.csv");
+  ran.times = record::read_rows<stats::CellTimeRow>(out / "times.csv");
+  ran.best = record::read_rows<stats::CellBestRow>(out / "best.csv");
   return ran;
 }
 
@@ -45,12 +47,12 @@ void expect_sound(const Ran& ran, std::size_t cells) {
   EXPECT_FALSE(ran.result.ours_wrong);
   EXPECT_EQ(ran.best.size(), cells);
   ASSERT_EQ(ran.times.size(), ran.grades.size());
-  for (const cells::GradeRow& row : ran.grades) {
+  for (const stats::GradeRow& row : ran.grades) {
     EXPECT_EQ(row.status, "ok") << row.algorithm;
     EXPECT_TRUE(row.approximate || row.is_right()) << row.cell << " " << row.algorithm;
     EXPECT_GT(row.graded, 0);
   }
-  for (const cells::CellTimeRow& row : ran.times) {
+  for (const stats::CellTimeRow& row : ran.times) {
     EXPECT_GE(row.samples, 3) << row.grade.algorithm;  // a disturbed round may be left out
     EXPECT_GT(row.seconds, 0);
   }
@@ -105,7 +107,7 @@ TEST(Cells, OfMotion) {
   ASSERT_EQ(ran.grades.size(), 4U * 4);
   std::map<std::string, std::string> hash_of;
   std::int64_t missed = 0;
-  for (const cells::GradeRow& row : ran.grades) {
+  for (const stats::GradeRow& row : ran.grades) {
     if (row.status == "unsupported") {
       EXPECT_EQ(row.algorithm, "gjk-ray-cast");
       EXPECT_EQ(row.group, "spinners");
@@ -125,6 +127,23 @@ TEST(Cells, OfMotion) {
     }
   }
   EXPECT_GT(missed, 0);
+}
+
+// Alone, triangles push bodies aside; welded, none does.
+TEST(Cells, OfSlidingBodies) {
+  const TemporaryFolder folder;
+  const auto request = request_of(
+      folder,
+      "kind = \"sliding\"\nqueries = 12\ngrounds = \"fine\"\nbodies = [\"sphere\", \"box\"]\n");
+  ASSERT_EQ(request.cells.size(), 2U);
+  const Ran ran = run(request, folder.path() / "out");
+  expect_sound(ran, request.cells.size());
+  std::int64_t ghosts = 0;
+  for (const stats::GradeRow& row : ran.grades) {
+    const bool is_welded = row.algorithm.ends_with(" welded");
+    if (!is_welded) ghosts += row.false_hits;
+  }
+  EXPECT_GT(ghosts, 0);
 }
 
 TEST(Cells, OfConvexBodiesAndMeshes) {
@@ -172,7 +191,7 @@ TEST(Cells, WrongFilesAreRefusedWithTheirLine) {
 }
 
 TEST(Cells, OfTheProjectsFilesAreRead) {
-  for (const char* name : {"rays", "casts", "ccd", "concave", "motion"}) {
+  for (const char* name : {"rays", "casts", "ccd", "concave", "motion", "sliding"}) {
     const auto request = cells::read_cells(std::filesystem::path(project_folder) /
                                            "datasets/campaigns" / (std::string(name) + ".toml"));
     EXPECT_EQ(request.name, name);
@@ -181,10 +200,10 @@ TEST(Cells, OfTheProjectsFilesAreRead) {
 }
 
 TEST(Columns, OfCellsAreDocumented) {
-  expect_documented("grades.csv of cells", record::column_docs<cells::GradeRow>());
-  expect_documented("raw.csv of cells", record::column_docs<cells::CellSampleRow>());
-  expect_documented("times.csv of cells", record::column_docs<cells::CellTimeRow>());
-  expect_documented("best.csv of cells", record::column_docs<cells::CellBestRow>());
+  expect_documented("grades.csv of cells", record::column_docs<stats::GradeRow>());
+  expect_documented("raw.csv of cells", record::column_docs<stats::CellSampleRow>());
+  expect_documented("times.csv of cells", record::column_docs<stats::CellTimeRow>());
+  expect_documented("best.csv of cells", record::column_docs<stats::CellBestRow>());
   expect_documented("points.csv of motion", record::column_docs<cells::MotionPointRow>());
 }
 

@@ -1,10 +1,10 @@
 // Makes the forms.
 #include "harness/check/kinds/blocks/cast_forms.h"
 
-#include <memory>
 #include <optional>
 #include <utility>
 
+#include "harness/geometry/shapes/scaled_shape.h"
 #include "harness/process/queries/solve_cast.h"
 
 namespace touchstone::check {
@@ -19,23 +19,9 @@ CastCase swapped_case(CastCase c) {
   return c;
 }
 
-// The hull is made anew, since its faces are in metres too.
-Shape scaled_by(Shape s, double scale) {
-  s.radius *= scale;
-  s.half_length *= scale;
-  s.half_extents *= scale;
-  s.radii *= scale;
-  s.offset *= scale;
-  if (s.kind != ShapeKind::hull) return s;
-  auto hull = std::make_shared<Hull>(*s.hull);
-  for (Vec3d& vertex : hull->vertices) vertex *= scale;
-  s.hull = std::move(hull);
-  return s;
-}
-
 CastCase scaled_case(CastCase c, double scale) {
-  c.shape_a = scaled_by(c.shape_a, scale);
-  c.shape_b = scaled_by(c.shape_b, scale);
+  c.shape_a = geometry::scaled_shape(c.shape_a, scale);
+  c.shape_b = geometry::scaled_shape(c.shape_b, scale);
   for (Pose* pose : {&c.pose_a, &c.pose_b}) pose->translation *= scale;
   for (Motion* motion : {&c.motion_a, &c.motion_b}) motion->displacement *= scale;
   return c;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/core/bounds.h"
 #include "harness/check/kinds/blocks/drawn_cases.h"
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
@@ -111,8 +112,7 @@ ConcaveCase convex_at(double gap, Draws& draws, std::uint64_t index) {
   normal = which == 2 && normal.norm() > 1e-9 ? normal.normalized() : draws.direction();
   ConcaveCase drawn;
   drawn.pose_b.rotation = draws.rotation();
-  drawn.pose_b.translation =
-      at + gap * normal - families::support_point(shape, drawn.pose_b, -normal);
+  drawn.pose_b.translation = at + gap * normal - support_point(shape, drawn.pose_b, -normal);
   drawn.a = body_of(std::move(mesh));
   drawn.b = body_of(std::move(shape));
   return drawn;

@@ -10,8 +10,9 @@ const total = (rows: Row[], column: string): number =>
 export function answers(folder: Folder, origins: Record<string, string>): string[] {
   const lines = [
     ...timed(folder),
-    ...fastest(folder.rows("broad_best.csv"), "peer", "Broad phases"),
-    ...fastest(folder.rows("narrow_best.csv"), "right_peer", "Narrow phases"),
+    ...fastest(folder.rows("broad_best.csv"), "peer", "peer_ratio", "Broad phases"),
+    ...fastest(folder.rows("narrow_best.csv"), "right_peer", "right_peer_ratio", "Narrow phases"),
+    ...fastest(folder.rows("best.csv"), "peer", "ratio", "Cells"),
     ...agreed(folder),
     ...checked(folder, origins),
     ...swept(folder),
@@ -36,8 +37,7 @@ function timed(folder: Folder): string[] {
 }
 
 // The set in the middle of all stands for them: its interval is one that was measured.
-function fastest(rows: Row[], peer: string, what: string): string[] {
-  const ratio = `${peer}_ratio`;
+function fastest(rows: Row[], peer: string, ratio: string, what: string): string[] {
   const usable = rows.filter((row) => row.number(ratio) > 0);
   usable.sort((a, b) => a.number(ratio) - b.number(ratio));
   const middle = usable[Math.floor((usable.length - 1) / 2)];

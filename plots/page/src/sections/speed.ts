@@ -1,7 +1,8 @@
-// This section shows times: curves against count, the winner of each set, phases, speed-up, and the samples of a
+// This section shows times: curves against count, cells, the winner of each set, phases, speed-up, and the samples of a
 // cell.
 import { quiet, make } from "../base/dom";
 import { part, section } from "../base/section";
+import { time_in_cells } from "../charts/cells";
 import { time_against_count } from "../charts/curves";
 import { phases } from "../charts/phases";
 import { samples_of } from "../charts/samples";
@@ -25,6 +26,7 @@ export function speed(folder: Folder): HTMLElement | null {
   return section(
     `${folder.name}: speed`,
     time_against_count(folder, pick),
+    time_in_cells(folder, pick),
     winners(folder),
     phases(folder),
     speed_up(folder),
@@ -35,6 +37,8 @@ export function speed(folder: Folder): HTMLElement | null {
       samples,
       folder.grid("times.csv", {
         lead: [
+          "group",
+          "cell",
           "scene",
           "bodies",
           "threads",

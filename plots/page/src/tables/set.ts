@@ -2,6 +2,8 @@
 import type { Row } from "./table";
 
 export const set_columns = [
+  "group",
+  "cell",
   "scene",
   "scene_hash",
   "bodies",
@@ -21,7 +23,7 @@ export const set_key = (row: Row, without: string[] = []): string =>
 
 export function set_text(row: Row, without: string[] = []): string {
   const told = (column: string): string => (without.includes(column) ? "" : row.text(column));
-  const words = [told("scene")];
+  const words = [told("group"), told("cell"), told("scene")];
   if (told("bodies")) words.push(`${told("bodies")} bodies`);
   if (told("seed")) words.push(`seed ${told("seed")}`);
   if (told("boxes")) words.push(`${told("boxes")} boxes`);

@@ -1,4 +1,6 @@
-// The tables of a cell run, from the rows in its folder.
+// Makes the tables of a cell run from the rows in its folder.
+#include "harness/stats/cells/cell_tables.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,14 +9,13 @@
 #include <optional>
 
 #include "harness/base/table.h"
-#include "harness/cells/cell_rows.h"
-#include "harness/cells/cell_run.h"
 #include "harness/files/text_file.h"
 #include "harness/record/facts.h"
 #include "harness/record/row.h"
+#include "harness/stats/cells/cell_rows.h"
 #include "harness/stats/statistics.h"
 
-namespace touchstone::cells {
+namespace touchstone::stats {
 namespace {
 
 constexpr double confidence = 0.95;
@@ -56,7 +57,7 @@ void compare(CellTimes& cell) {
   std::vector<double> logs;
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
     logs.push_back(std::log(b[k] / a[k]));
-  const stats::MedianInterval ratio = stats::exponential(stats::median_interval(logs, confidence));
+  const MedianInterval ratio = exponential(median_interval(logs, confidence));
   best.ratio = ratio.median;
   best.low = ratio.low;
   best.high = ratio.high;
@@ -86,7 +87,7 @@ std::vector<CellTimes> read_times(const std::filesystem::path& folder) {
       const std::vector<double>& seconds = cell.by_round[row.grade.algorithm];
       row.samples = std::ssize(seconds);
       if (seconds.empty()) continue;
-      const stats::MedianInterval time = stats::median_interval(seconds, confidence);
+      const MedianInterval time = median_interval(seconds, confidence);
       row.seconds = time.median;
       row.low = time.low;
       row.high = time.high;
@@ -146,7 +147,8 @@ std::string facts_of(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::string write_cell_tables(const std::filesystem::path& folder, const std::string& name) {
+std::string write_cell_tables(const std::filesystem::path& folder, const std::string& name,
+                              const std::filesystem::path& out) {
   const std::vector<CellTimes> cells = read_times(folder);
   std::vector<CellTimeRow> times;
   std::vector<CellBestRow> bests;
@@ -175,10 +177,10 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
                   ? "-"
                   : number(cell.best->low) + " to " + number(cell.best->high)});
   }
-  record::write_rows(folder / "times.csv", times);
-  record::write_rows(folder / "best.csv", bests);
+  record::write_rows(out / "times.csv", times);
+  record::write_rows(out / "best.csv", bests);
   files::write_text(
-      folder / "tables.md",
+      out / "tables.md",
       fmt::format(
           "# Tables of {}\n\n{}\nTimes are medians over rounds in which every algorithm is timed "
           "once, "
@@ -189,4 +191,4 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
   return best.text(base::page_width());
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::stats

@@ -7,7 +7,7 @@
 #include "algorithms/core/outcome.h"
 #include "harness/record/row.h"
 
-namespace touchstone::cells {
+namespace touchstone::stats {
 
 // grades.csv: one algorithm's answers to one cell.
 struct GradeRow {
@@ -97,4 +97,4 @@ void columns(Row& row, Visit visit) {
   visit("ratio_high", record::rounded(row.high, 4), "Upper end.");
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::stats
