@@ -8,6 +8,7 @@
 #include "algorithms/concave/part_pairs/part_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 
@@ -60,11 +61,44 @@ struct Search {
     move(tree_a.blocks[leaf_a], frame.a, in_a);
     move(tree_b.blocks[leaf_b], frame.b, in_b);
     const NearTriangles near = near_triangles(in_a, count_a, in_b, count_b, way, upper + rounding);
+    // Pairs wait until there are eight.
+    TriangleBlock wait_a, wait_b;
+    std::size_t waiting = 0;
     for (std::size_t i = 0; i < count_a; ++i) {
       for (unsigned bits = near[i]; bits != 0; bits &= bits - 1) {
-        compare(corners_of(in_a, i),
-                corners_of(in_b, static_cast<std::size_t>(std::countr_zero(bits))));
+        const auto j = static_cast<std::size_t>(std::countr_zero(bits));
+        for (std::size_t row = 0; row < wait_a.at.size(); ++row) {
+          wait_a.at[row][waiting] = in_a.at[row][i];
+          wait_b.at[row][waiting] = in_b.at[row][j];
+        }
+        if (++waiting < TriangleBlock::size) continue;
+        compare(wait_a, wait_b, waiting);
+        waiting = 0;
       }
+    }
+    if (waiting > 0) compare(wait_a, wait_b, waiting);
+  }
+
+  // Measures the pairs in the lanes whose gaps leave them near, the nearest first.
+  void compare(TriangleBlock& in_a, TriangleBlock& in_b, std::size_t count) {
+    for (std::size_t row = 0; row < in_a.at.size(); ++row) {
+      for (std::size_t lane = count; lane < TriangleBlock::size; ++lane) {
+        in_a.at[row][lane] = in_a.at[row][0];
+        in_b.at[row][lane] = in_b.at[row][0];
+      }
+    }
+    std::array<double, TriangleBlock::size> gap;
+    gaps_of_pairs(in_a, in_b, gap);
+    for (unsigned left = (1u << count) - 1; left != 0;) {
+      auto nearest = static_cast<std::size_t>(std::countr_zero(left));
+      for (unsigned bits = left; bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+        // NaN comes first.
+        if (!(gap[nearest] <= gap[lane])) nearest = lane;
+      }
+      if (gap[nearest] * (1 - 0x1p-48) - rounding >= upper) return;
+      left &= ~(1u << nearest);
+      compare(corners_of(in_a, nearest), corners_of(in_b, nearest));
     }
   }
 
@@ -73,12 +107,6 @@ struct Search {
   }
 
   void compare(const TriangleCorners& in_a, const TriangleCorners& in_b) {
-    // The way may be known better than when the leaves were compared. It is a unit vector up to
-    // rounding.
-    const auto along = [&](const Vec3d& corner) { return way.dot(corner); };
-    const double end = std::max({along(in_a[0]), along(in_a[1]), along(in_a[2])});
-    const double begin = std::min({along(in_b[0]), along(in_b[1]), along(in_b[2])});
-    if ((begin - end) * (1 - 0x1p-48) - rounding >= upper) return;
     const TriangleDistance found = triangle_distance(in_a, in_b);
     lower = std::min(lower, distance_bound(in_a, in_b, found) - rounding);
     if (!(found.distance + rounding < upper)) return;

@@ -28,4 +28,14 @@ NearTriangles near_triangles(const TriangleBlock& a, unsigned count_a, const Tri
   return baseline::near_lanes(a, count_a, b, count_b, way, limit);
 }
 
+void gaps_of_pairs(const TriangleBlock& a, const TriangleBlock& b,
+                   std::array<double, TriangleBlock::size>& gap) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::gap_lanes(a, b, gap);
+    case Isa::avx2: return avx2::gap_lanes(a, b, gap);
+    case Isa::baseline: break;
+  }
+  baseline::gap_lanes(a, b, gap);
+}
+
 }  // namespace touchstone
