@@ -6,10 +6,9 @@
 //          3. Where none share a point and a body is a solid mesh, count how often its surface winds
 //             around a point of each connected piece or part of the other, in integers
 //             (exact_winding).
-//          4. distance: the least of all pairs' distances. The pair that is nearest in doubles is
-//             measured first; then those whose boxes are not further apart than that, and of triangles
-//             only where no gap along their shortest way in doubles, rounded down, excludes them
-//             (triangle_gap). What doubles find is a hint, what excludes a pair is proven.
+//          4. distance: the least of all pairs' distances. Boxes, and gaps of triangles in doubles that
+//             are rounded down (triangle_gap), exclude most pairs; the pair with the least of these
+//             bounds is measured first, and those of which they are not above its distance.
 // Departs: -
 // Fails:   is quadratic, so it is for bodies of some thousand triangles or some hundred other parts. Curved parts can be unknown, as
 //          for `exact`. Poses of parts within turned compounds are rounded; where that hides a
@@ -26,7 +25,6 @@
 #include "algorithms/concave_phase.h"
 #include "algorithms/core/bounds.h"
 #include "algorithms/core/mesh/common_frame.h"
-#include "algorithms/kernels/triangles/triangle_distance.h"
 #include "algorithms/oracle/answer.h"
 #include "algorithms/oracle/concave/exact_winding.h"
 #include "algorithms/oracle/concave/triangle_gap.h"
@@ -211,7 +209,6 @@ class ExactConcave final : public ConcavePhase {
   struct Near {
     double gap;
     std::uint32_t a, b;
-    Vec3d way;  // about the shortest way of two triangles; zero of other parts
   };
   static std::vector<Near> near_pairs(const std::vector<ExactPart>& parts_a,
                                       const std::vector<ExactPart>& parts_b) {
@@ -228,7 +225,7 @@ class ExactConcave final : public ConcavePhase {
     for (std::uint32_t i = 0; i < parts_a.size(); ++i) {
       for (std::uint32_t j = 0; j < parts_b.size(); ++j) {
         const double apart = gap(parts_a[i].box, parts_b[j].box);
-        if (!(apart > upper)) near.push_back({apart, i, j, Vec3d::Zero()});
+        if (!(apart > upper)) near.push_back({apart, i, j});
       }
     }
     return near;
@@ -239,17 +236,16 @@ class ExactConcave final : public ConcavePhase {
     std::vector<Near> near = near_pairs(parts_a, parts_b);
     Outcome best;
     best.lower = best.upper = none_found;
-    // The nearest pair by doubles comes first: it is mostly the one, and if it is not the order is
-    // merely slow.
+    // The pair with the least proven distance comes first: it is mostly the one, and if it is not the
+    // order is merely slow.
     double least = none_found;
     const Near* first = nullptr;
     for (Near& pair : near) {
       const auto &a = parts_a[pair.a].triangle, &b = parts_b[pair.b].triangle;
       if (!a || !b || pair.gap > least) continue;
-      const TriangleDistance found = triangle_distance(a->corners, b->corners);
-      pair.way = found.on_b - found.on_a;
-      if (!(found.distance < least)) continue;
-      least = found.distance;
+      pair.gap = std::max(pair.gap, oracle::proven_distance(*a, *b, least));
+      if (!(pair.gap < least)) continue;
+      least = pair.gap;
       first = &pair;
     }
     if (first != nullptr) consider(parts_a[first->a], parts_b[first->b], best);
@@ -257,12 +253,7 @@ class ExactConcave final : public ConcavePhase {
     std::ranges::sort(near, std::less{}, &Near::gap);
     for (const Near& pair : near) {
       if (pair.gap > best.upper) break;
-      const ExactPart &a = parts_a[pair.a], &b = parts_b[pair.b];
-      if (a.triangle && b.triangle &&
-          oracle::gap_along(pair.way, *a.triangle, *b.triangle) > best.upper) {
-        continue;
-      }
-      consider(a, b, best);
+      consider(parts_a[pair.a], parts_b[pair.b], best);
     }
     return best;
   }

@@ -50,4 +50,38 @@ double gap_along(const Vec3d& direction, const RoundedTriangle& a, const Rounded
   return std::max(0.0, (begin - end - slack) / length * rounded_down);
 }
 
+double proven_distance(const RoundedTriangle& a, const RoundedTriangle& b, double enough) {
+  double bound = 0;
+  const auto suffices = [&](const Vec3d& direction) {
+    bound = std::max({bound, gap_along(direction, a, b), gap_along(-direction, a, b)});
+    return bound > enough;
+  };
+  const auto edge = [](const RoundedTriangle& t, std::size_t k) {
+    return Vec3d(t.corners[(k + 1) % 3] - t.corners[k]);
+  };
+  const auto across = [](const Vec3d& way, const Vec3d& along) {
+    const double square = along.squaredNorm();
+    return square > 0 ? Vec3d(way - along * (along.dot(way) / square)) : way;
+  };
+  if (suffices(b.corners[0] + b.corners[1] + b.corners[2] - a.corners[0] - a.corners[1] -
+               a.corners[2])) {
+    return bound;
+  }
+  // Corners over faces.
+  for (const RoundedTriangle* t : {&a, &b}) {
+    if (suffices(edge(*t, 0).cross(edge(*t, 1)))) return bound;
+  }
+  // Two corners, two edges, and a corner and an edge.
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3d way = b.corners[j] - a.corners[i];
+      if (suffices(way) || suffices(edge(a, i).cross(edge(b, j))) ||
+          suffices(across(way, edge(a, i))) || suffices(across(way, edge(b, j)))) {
+        return bound;
+      }
+    }
+  }
+  return bound;
+}
+
 }  // namespace touchstone::oracle

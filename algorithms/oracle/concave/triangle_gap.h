@@ -21,4 +21,8 @@ RoundedTriangle rounded_triangle(const Body& body);
 // direction, which may be any (and is worth nothing if it is a bad one). 0 if that is not known.
 double gap_along(const Vec3d& direction, const RoundedTriangle& a, const RoundedTriangle& b);
 
+// At most the distance of the triangles, and that up to rounding if they are apart: the greatest gap along
+// the directions on which two triangles can be nearest. Ends with the first that is above `enough`.
+double proven_distance(const RoundedTriangle& a, const RoundedTriangle& b, double enough);
+
 }  // namespace touchstone::oracle

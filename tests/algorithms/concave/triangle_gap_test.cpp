@@ -46,9 +46,13 @@ TEST(TriangleGap, IsAtMostTheDistanceAndReachesIt) {
     const double along_normal = gap_along(truth.normal, in_a, in_b);
     EXPECT_LE(along_normal, std::max(0.0, truth.lower));
     EXPECT_LE(gap_along(random.vector(1), in_a, in_b), std::max(0.0, truth.lower));
+    const double proven = proven_distance(in_a, in_b, std::numeric_limits<double>::infinity());
+    EXPECT_LE(proven, std::max(0.0, truth.lower));
+    EXPECT_LE(proven_distance(in_a, in_b, 0), proven);
     if (truth.lower <= 0) {
       ++met;
     } else {
+      EXPECT_GE(proven, truth.upper * (1 - 1e-11) - 1e-10);
       EXPECT_GE(along_normal, truth.upper * (1 - 1e-11) - 1e-10);
       ++reached;
     }
