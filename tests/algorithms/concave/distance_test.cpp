@@ -69,7 +69,7 @@ TEST(ConcaveDistance, IsTheSameAtEveryLevelOfInstructions) {
     const Outcome best = ask("fused", ConcaveTask::distance, bodies, a, b).outcome;
     if (best.answer != Answer::separated) continue;
     ++apart;
-    for (const Isa level : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+    for (const Isa level : isa_levels()) {
       SCOPED_TRACE(to_string(level));
       limit_isa(level);
       const Outcome found = ask("fused", ConcaveTask::distance, bodies, a, b).outcome;
