@@ -1,5 +1,6 @@
 // The distance of two bodies: pairs of leaves whose boxes are near, the nearest first; then their
-// pairs of triangles in doubles, or of convex parts by the narrow phase.
+// pairs of triangles in doubles, or of convex parts by the narrow phase. Boxes are compared in the frames of
+// both bodies where poses are nearly rigid, else in the world's.
 //
 // A triangle's corner is off by `error` in each coordinate, and by 4 u of the frame's greatest
 // coordinate in what is computed from it; a distance or a gap along an axis by less than eight times
@@ -8,10 +9,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 
 #include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/triangles/triangle_distance.h"
+#include "algorithms/kernels/triangles/triangle_gaps.h"
+#include "algorithms/kernels/triangles/triangle_signs.h"
 
 namespace touchstone {
 namespace {
@@ -27,9 +31,21 @@ double reach_in(const CommonFrame& frame, double reach_a, double reach_b) {
   return std::max(reach(frame.a, reach_a), reach(frame.b, reach_b));
 }
 
+// Adds the frame of a body, in which its boxes are not turned, if its pose is nearly rigid. With
+// e = |R^T R - I| no vector is shortened by more than 1 - sqrt(1 - e) of it.
+void add_frame(const Pose& of, double reach_of, const Pose& other, double reach_other, bool is_of_b,
+               std::vector<NearestFrame>& frames) {
+  const double skew = (of.rotation.transpose() * of.rotation - Mat3d::Identity()).norm();
+  if (!(skew < 0.1)) return;
+  const CommonFrame frame = common_frame(of, reach_of, other, reach_other);
+  if (!frame.is_of_a) return;
+  frames.push_back({descent_frame(frame, reach_of, reach_other), is_of_b,
+                    static_cast<float>(1 - skew - 0x1p-20)});
+}
+
 struct Search {
   const BoundBody &a, &b;
-  const WideBvh &tree_a, &tree_b;
+  const MeshTree &tree_a, &tree_b;
   const PlacedConcave &placed_a, &placed_b;
   CommonFrame frame;
   double rounding;
@@ -38,46 +54,66 @@ struct Search {
   Vec3d on_a = Vec3d::Zero(), on_b = Vec3d::Zero();
   Vec3d way = Vec3d::Zero();  // of the nearest points; a unit vector, or zero
 
-  // A leaf's triangles in the frame, with their boxes and where they end along the way.
-  struct PlacedLeaf {
-    std::array<TriangleCorners, WideBvh::leaf_size> corners;
-    std::array<Vec3d, WideBvh::leaf_size> low, high;
-    std::array<double, WideBvh::leaf_size> first, last;
-
-    PlacedLeaf(const BoundBody& body, std::span<const std::uint32_t> leaf, const Pose& pose,
-               const Vec3d& way) {
-      for (std::size_t i = 0; i < leaf.size(); ++i) {
-        const TriangleCorners given = body.corners(leaf[i]);
-        TriangleCorners& t = corners[i];
-        for (std::size_t k = 0; k < 3; ++k) t[k] = pose(given[k]);
-        low[i] = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
-        high[i] = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
-        const auto [begin, end] = std::minmax({way.dot(t[0]), way.dot(t[1]), way.dot(t[2])});
-        first[i] = begin;
-        last[i] = end;
-      }
-    }
-  };
-
-  void visit_meshes(std::span<const std::uint32_t> leaf_a, std::span<const std::uint32_t> leaf_b) {
-    const PlacedLeaf in_a(a, leaf_a, frame.a, way), in_b(b, leaf_b, frame.b, way);
-    for (std::size_t i = 0; i < leaf_a.size(); ++i) {
-      for (std::size_t j = 0; j < leaf_b.size(); ++j) {
-        // Gaps along the way, which is a unit vector up to rounding, and of the boxes.
-        if ((in_b.first[j] - in_a.last[i]) * (1 - 0x1p-48) - rounding >= upper) continue;
-        const Vec3d gap =
-            (in_a.low[i] - in_b.high[j]).cwiseMax(in_b.low[j] - in_a.high[i]).cwiseMax(0.0);
-        if (gap.norm() - rounding >= upper) continue;
-        const TriangleDistance found = triangle_distance(in_a.corners[i], in_b.corners[j]);
-        lower = std::min(lower, distance_bound(in_a.corners[i], in_b.corners[j], found) - rounding);
-        if (found.distance + rounding < upper) {
-          upper = found.distance + rounding;
-          on_a = found.on_a + placed_a.pose.translation;
-          on_b = found.on_b + placed_a.pose.translation;
-          way = (found.on_b - found.on_a).normalized();
+  void visit_meshes(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    const auto count_a = static_cast<unsigned>(tree_a.tree.leaf(leaf_a).size());
+    const auto count_b = static_cast<unsigned>(tree_b.tree.leaf(leaf_b).size());
+    TriangleBlock in_a, in_b;
+    move(tree_a.blocks[leaf_a], frame.a, in_a);
+    move(tree_b.blocks[leaf_b], frame.b, in_b);
+    const NearTriangles near = near_triangles(in_a, count_a, in_b, count_b, way, upper + rounding);
+    // Pairs wait until there are eight.
+    TriangleBlock wait_a, wait_b;
+    std::size_t waiting = 0;
+    for (std::size_t i = 0; i < count_a; ++i) {
+      for (unsigned bits = near[i]; bits != 0; bits &= bits - 1) {
+        const auto j = static_cast<std::size_t>(std::countr_zero(bits));
+        for (std::size_t row = 0; row < wait_a.at.size(); ++row) {
+          wait_a.at[row][waiting] = in_a.at[row][i];
+          wait_b.at[row][waiting] = in_b.at[row][j];
         }
+        if (++waiting < TriangleBlock::size) continue;
+        compare(wait_a, wait_b, waiting);
+        waiting = 0;
       }
     }
+    if (waiting > 0) compare(wait_a, wait_b, waiting);
+  }
+
+  // Measures the pairs in the lanes whose gaps leave them near, the nearest first.
+  void compare(TriangleBlock& in_a, TriangleBlock& in_b, std::size_t count) {
+    for (std::size_t row = 0; row < in_a.at.size(); ++row) {
+      for (std::size_t lane = count; lane < TriangleBlock::size; ++lane) {
+        in_a.at[row][lane] = in_a.at[row][0];
+        in_b.at[row][lane] = in_b.at[row][0];
+      }
+    }
+    std::array<double, TriangleBlock::size> gap;
+    gaps_of_pairs(in_a, in_b, gap);
+    for (unsigned left = (1u << count) - 1; left != 0;) {
+      auto nearest = static_cast<std::size_t>(std::countr_zero(left));
+      for (unsigned bits = left; bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+        // NaN comes first.
+        if (!(gap[nearest] <= gap[lane])) nearest = lane;
+      }
+      if (gap[nearest] * (1 - 0x1p-48) - rounding >= upper) return;
+      left &= ~(1u << nearest);
+      compare(corners_of(in_a, nearest), corners_of(in_b, nearest));
+    }
+  }
+
+  static TriangleCorners corners_of(const TriangleBlock& block, std::size_t lane) {
+    return {block.corner(lane, 0), block.corner(lane, 1), block.corner(lane, 2)};
+  }
+
+  void compare(const TriangleCorners& in_a, const TriangleCorners& in_b) {
+    const TriangleDistance found = triangle_distance(in_a, in_b);
+    lower = std::min(lower, distance_bound(in_a, in_b, found) - rounding);
+    if (!(found.distance + rounding < upper)) return;
+    upper = found.distance + rounding;
+    on_a = found.on_a + placed_a.pose.translation;
+    on_b = found.on_b + placed_a.pose.translation;
+    way = (found.on_b - found.on_a).normalized();
   }
 
   void visit_parts(std::span<const std::uint32_t> leaf_a, std::span<const std::uint32_t> leaf_b) {
@@ -101,11 +137,10 @@ struct Search {
   }
 
   NearestKnown visit(std::uint32_t leaf_a, std::uint32_t leaf_b) {
-    const auto parts_a = tree_a.leaf(leaf_a), parts_b = tree_b.leaf(leaf_b);
     if (a.mesh() != nullptr && b.mesh() != nullptr) {
-      visit_meshes(parts_a, parts_b);
+      visit_meshes(leaf_a, leaf_b);
     } else {
-      visit_parts(parts_a, parts_b);
+      visit_parts(tree_a.tree.leaf(leaf_a), tree_b.tree.leaf(leaf_b));
     }
     const auto part = [&](int k) { return static_cast<float>(way[k]); };
     return {upper, {part(0), part(1), part(2)}};
@@ -123,10 +158,17 @@ void PartDistance::bind(std::span<const BoundBody> bodies, const MeshTrees& give
 // The next query builds the tree anew.
 void PartDistance::refit(std::uint32_t body) { trees_[body] = {}; }
 
-const WideBvh& PartDistance::tree_of(std::uint32_t body) {
-  if (body < given_->size() && !(*given_)[body].tree.nodes.empty()) return (*given_)[body].tree;
-  if (trees_[body].nodes.empty()) trees_[body] = build_wide_bvh(bodies_[body].boxes);
-  return trees_[body];
+const MeshTree& PartDistance::tree_of(std::uint32_t body) {
+  if (body < given_->size() && !(*given_)[body].tree.nodes.empty()) return (*given_)[body];
+  MeshTree& made = trees_[body];
+  if (made.tree.nodes.empty()) {
+    if (bodies_[body].mesh() != nullptr) {
+      made = mesh_tree(bodies_[body]);
+    } else {
+      made.tree = build_wide_bvh(bodies_[body].boxes);
+    }
+  }
+  return made;
 }
 
 void PartDistance::measure(const PlacedConcave& a, const PlacedConcave& b,
@@ -137,8 +179,13 @@ void PartDistance::measure(const PlacedConcave& a, const PlacedConcave& b,
   Search search{first,       second, tree_of(a.body), tree_of(b.body),
                 a,           b,      frame,           8 * (frame.error + 0x1p-51 * far),
                 convex_pairs};
+  const DescentFrame world = descent_frame(frame, first.reach, second.reach);
+  std::vector<NearestFrame> frames;
+  add_frame(a.pose, first.reach, b.pose, second.reach, false, frames);
+  add_frame(b.pose, second.reach, a.pose, first.reach, true, frames);
+  if (frames.empty()) frames.push_back({world, false, 1});
   nearest_.run(
-      search.tree_a, search.tree_b, descent_frame(frame, first.reach, second.reach),
+      search.tree_a.tree, search.tree_b.tree, world, frames,
       [](void* context, std::uint32_t leaf_a, std::uint32_t leaf_b) {
         return static_cast<Search*>(context)->visit(leaf_a, leaf_b);
       },

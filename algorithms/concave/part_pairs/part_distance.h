@@ -28,11 +28,11 @@ class PartDistance {
                Outcome& outcome);
 
  private:
-  const WideBvh& tree_of(std::uint32_t body);
+  const MeshTree& tree_of(std::uint32_t body);
 
   std::span<const BoundBody> bodies_;
   const MeshTrees* given_ = nullptr;
-  std::vector<WideBvh> trees_;
+  MeshTrees trees_;
   WideNearest nearest_;
 };
 

@@ -20,15 +20,11 @@
 namespace touchstone {
 namespace {
 
-// The boxes of a node's children, in the frame.
-struct alignas(64) NodeBoxes {
-  std::array<std::array<float, WideNode::fan>, 3> centre, half;
-};
-
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/wide_descent.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 using SeeBoxes = unsigned (*)(const WideNode&, const BoxView*, float, NodeBoxes&);
+SeeBoxes seeing() { return isa() == Isa::baseline ? baseline::see_node : avx2::see_node; }
 using MeetBoxes = unsigned (*)(const NodeBoxes&, std::size_t, const NodeBoxes&);
 
 BoxView view_of(const Pose& pose, double slack) {
@@ -57,11 +53,15 @@ DescentFrame descent_frame(const CommonFrame& frame, double reach_a, double reac
   return {view_of(frame.b, slack), view_of(frame.a, 0), !frame.is_of_a};
 }
 
+unsigned see_boxes(const WideNode& node, const BoxView* view, float slack, NodeBoxes& seen) {
+  return seeing()(node, view, slack, seen);
+}
+
 bool WideDescent::run(const WideBvh& a, const WideBvh& b, const DescentFrame& frame, Visit visit,
                       void* context) {
   if (a.nodes.empty() || b.nodes.empty()) return true;
   const bool plain = isa() == Isa::baseline;
-  const SeeBoxes see = plain ? baseline::see_boxes : avx2::see_boxes;
+  const SeeBoxes see = seeing();
   const MeetBoxes meet = plain ? baseline::meeting_boxes : avx2::meeting_boxes;
   NodeBoxes boxes_a, boxes_b;
   open_.assign(1, {0, 0, 0xff, 0xff});

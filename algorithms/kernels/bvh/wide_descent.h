@@ -34,6 +34,15 @@ struct DescentFrame {
 // The reaches are those of common_frame.
 DescentFrame descent_frame(const CommonFrame& frame, double reach_a, double reach_b);
 
+// The boxes of a node's children in a frame, a lane a child.
+struct alignas(64) NodeBoxes {
+  std::array<std::array<float, WideNode::fan>, 3> centre, half;
+};
+
+// Writes the boxes as the view maps them, if there is one, grown by `slack` (metres); NaN where they
+// are boundless. Returns the bits of those that are not empty.
+unsigned see_boxes(const WideNode& node, const BoxView* view, float slack, NodeBoxes& seen);
+
 class WideDescent {
  public:
   // Returns false to end the descent.

@@ -2,9 +2,9 @@
 
 // Writes centres and half extents of a node's boxes, seen through the view if there is one and grown
 // by `slack`. Returns the bits of the boxes that are not empty.
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned see_boxes(const WideNode& node,
-                                                               const BoxView* view, float slack,
-                                                               NodeBoxes& seen) {
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned see_node(const WideNode& node,
+                                                              const BoxView* view, float slack,
+                                                              NodeBoxes& seen) {
   using Lanes = Simd<float>;
   using Vector = typename Lanes::Vector;
   const Vector half = Lanes::broadcast(0.5F), grown = Lanes::broadcast(slack);

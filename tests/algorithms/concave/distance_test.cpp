@@ -1,6 +1,7 @@
 // Distances against the oracle's.
 #include <gtest/gtest.h>
 
+#include "algorithms/core/isa.h"
 #include "algorithms/hull/convex_hull.h"
 #include "harness/families/triangle_pairs.h"
 #include "tests/algorithms/concave/agreed.h"
@@ -54,6 +55,32 @@ TEST(ConcaveDistance, OfTori) {
     EXPECT_GT(apart, 2);
     EXPECT_LT(apart, count);
   }
+}
+
+TEST(ConcaveDistance, IsTheSameAtEveryLevelOfInstructions) {
+  families::RandomDraws random(3);
+  const std::array<ConcaveBody, 2> bodies = {body_of(reference::torus(20, 10, 1, 0.2)),
+                                             body_of(reference::torus(16, 8, 0.8, 0.2))};
+  int apart = 0;
+  const int count = drawn(20, 4);
+  for (int i = 0; i < count; ++i) {
+    const Pose a = {random.rotation(), random.vector(1)},
+               b = {random.rotation(), random.vector(1) + Vec3d(1.5, 0, 0)};
+    const Outcome best = ask("fused", ConcaveTask::distance, bodies, a, b).outcome;
+    if (best.answer != Answer::separated) continue;
+    ++apart;
+    for (const Isa level : isa_levels()) {
+      SCOPED_TRACE(to_string(level));
+      limit_isa(level);
+      const Outcome found = ask("fused", ConcaveTask::distance, bodies, a, b).outcome;
+      EXPECT_EQ(found.lower, best.lower);
+      EXPECT_EQ(found.upper, best.upper);
+      EXPECT_EQ(found.witness_a, best.witness_a);
+      EXPECT_EQ(found.witness_b, best.witness_b);
+    }
+    limit_isa(isa_of_machine());
+  }
+  EXPECT_GT(apart, 0);
 }
 
 TEST(ConcaveDistance, OfTrianglesOfEveryFamily) {
