@@ -16,9 +16,10 @@ namespace touchstone::cells {
 namespace {
 
 using MakeCells = std::vector<PlannedCell> (*)(files::TomlTable&, const std::filesystem::path&);
-constexpr std::array<std::string_view, 5> kinds = {"rays", "casts", "ccd", "concave", "motion"};
-constexpr std::array<MakeCells, 5> makers = {ray_cells, cast_cells, ccd_cells, concave_cells,
-                                             motion_cells};
+constexpr std::array<std::string_view, 6> kinds = {"rays", "points",  "casts",
+                                                   "ccd",  "concave", "motion"};
+constexpr std::array<MakeCells, 6> makers = {ray_cells, point_cells,   cast_cells,
+                                             ccd_cells, concave_cells, motion_cells};
 
 std::string fingerprint(const std::string& text) {
   std::uint64_t hash = 0;
