@@ -15,9 +15,9 @@
 #include <optional>
 #include <vector>
 
-#include "algorithms/kernels/rays/nearest_walk.h"
+#include "algorithms/kernels/rays/points/nearest_walk.h"
+#include "algorithms/kernels/rays/points/winding_query.h"
 #include "algorithms/kernels/rays/ray_walk.h"
-#include "algorithms/kernels/rays/winding_query.h"
 #include "algorithms/point_query.h"
 
 namespace touchstone {

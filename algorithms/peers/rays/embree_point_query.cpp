@@ -61,6 +61,10 @@ class EmbreePointQuery final : public PointQuery {
 
   void query(PointTask, std::span<const Vec3d> points, std::span<PointAnswer> answers) override {
     for (std::size_t i = 0; i < points.size(); ++i) {
+      PointAnswer& answer = answers[i];
+      answer = {};
+      answer.status = points[i].allFinite() ? Status::not_reported : Status::degenerate;
+      if (!points[i].allFinite()) continue;
       Search search{*this, points[i].cast<float>()};
       RTCPointQueryContext context;
       rtcInitPointQueryContext(&context);
@@ -71,9 +75,6 @@ class EmbreePointQuery final : public PointQuery {
       query.time = 0;
       query.radius = std::numeric_limits<float>::infinity();
       rtcPointQuery(scene_, &query, &context, take, &search);
-      PointAnswer& answer = answers[i];
-      answer = {};
-      answer.status = Status::not_reported;
       if (search.triangle == PointAnswer::no_triangle) continue;
       answer.triangle = search.triangle;
       answer.closest = search.closest.cast<double>();

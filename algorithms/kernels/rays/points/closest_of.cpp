@@ -1,6 +1,6 @@
 // The closest point of a triangle: over its face, or on an edge.
 // Paper: Ericson, "Real-time collision detection", 2005, 5.1.
-#include "algorithms/kernels/rays/closest_of.h"
+#include "algorithms/kernels/rays/points/closest_of.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // The nearest triangle: the choice of the instruction level, and what doubles decide.
-#include "algorithms/kernels/rays/nearest_walk.h"
+#include "algorithms/kernels/rays/points/nearest_walk.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "algorithms/kernels/rays/closest_of.h"
+#include "algorithms/kernels/rays/points/closest_of.h"
 #include "algorithms/kernels/rays/sorted_children.h"
 #include "algorithms/kernels/simd/vector.h"
 
@@ -57,7 +57,7 @@ class NearestSearch {
   Nearest nearest_ = {0, Vec3d::Zero()};
 };
 
-#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/rays/nearest_walk.inl"
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/rays/points/nearest_walk.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace
