@@ -19,8 +19,9 @@ class NearestSearch {
   NearestSearch(const RayMesh& mesh, const Vec3d& point) : mesh_(mesh), point_(point) {
     const Frame& frame = mesh.frame();
     const Vec3d local = (point - frame.centre) * frame.scale;
-    for (std::size_t k = 0; k < 3; ++k) at_[k] = static_cast<float>(local[static_cast<int>(k)]);
     reach_ = 1 + local.cwiseAbs().maxCoeff();
+    if (is_far()) return;
+    for (std::size_t k = 0; k < 3; ++k) at_[k] = static_cast<float>(local[static_cast<int>(k)]);
   }
 
   // From there on, floats would overflow, and do not tell triangles from each other.
@@ -35,6 +36,7 @@ class NearestSearch {
     is_any_ = true;
     best_ = square;
     nearest_ = {triangle, found};
+    if (is_far()) return;
     // Floats are off by the rounding of the point, of a corner, of their difference, and of at most twelve
     // operations with them, which is less than 2^-20 of the reach in all; of boxes, by less.
     const double distance = std::sqrt(square) * mesh_.frame().scale + reach_ * 0x1p-19;
@@ -49,7 +51,7 @@ class NearestSearch {
  private:
   const RayMesh& mesh_;
   const Vec3d point_;
-  std::array<float, 3> at_;
+  std::array<float, 3> at_ = {};
   double reach_;
   float limit_ = 0x1p60F;
   bool is_any_ = false;
