@@ -59,10 +59,12 @@ class EmbreePointQuery final : public PointQuery {
     rtcCommitScene(scene_);
   }
 
-  void query(PointTask, std::span<const Vec3d> points, std::span<PointAnswer> answers) override {
+  void query(PointTask task, std::span<const Vec3d> points,
+             std::span<PointAnswer> answers) override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       PointAnswer& answer = answers[i];
       answer = {};
+      if (task != PointTask::closest) continue;
       answer.status = points[i].allFinite() ? Status::not_reported : Status::degenerate;
       if (!points[i].allFinite()) continue;
       Search search{*this, points[i].cast<float>()};
