@@ -9,14 +9,13 @@
 
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
-#include "harness/base/error.h"
 #include "harness/base/hash.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
 #include "harness/cells/choices.h"
 #include "harness/cells/concave_setup.h"
 #include "harness/cells/kinds.h"
-#include "harness/geometry/shapes/named_mesh.h"
+#include "harness/cells/mesh_inputs.h"
 
 namespace touchstone::cells {
 namespace {
@@ -195,21 +194,6 @@ Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std:
   return cell;
 }
 
-std::shared_ptr<const TriangleMesh> read_mesh_of(const std::string& name,
-                                                 const std::filesystem::path& home,
-                                                 files::TomlTable& table, const char* key) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  try {
-    geometry::Mesh read = geometry::named_mesh(name, home);
-    mesh->vertices = std::move(read.vertices);
-    mesh->triangles = std::move(read.triangles);
-  } catch (const base::InputError& error) {
-    table.fail(key, error.what());
-  }
-  if (mesh->triangles.empty()) table.fail(key, name + " has no triangles; expected some");
-  return mesh;
-}
-
 }  // namespace
 
 std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::filesystem::path& home) {
@@ -228,7 +212,7 @@ std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::files
          }});
   };
   for (const std::string& name : table.texts("meshes", {"torus-2000", "trefoil-10000"})) {
-    const auto mesh = read_mesh_of(name, home, table, "meshes");
+    const auto mesh = std::make_shared<const TriangleMesh>(mesh_of(name, home, table, "meshes"));
     for (const std::size_t task : tasks) {
       for (const std::size_t place : places) {
         add(fmt::format("{}, {} triangles", name, mesh->triangles.size()), {mesh, {}}, task, place);
@@ -237,7 +221,8 @@ std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::files
   }
   const std::vector<std::size_t> convex = choices(table, "convex", convex_names);
   for (const std::string& name : table.texts("convex_meshes", {})) {
-    const auto mesh = read_mesh_of(name, home, table, "convex_meshes");
+    const auto mesh =
+        std::make_shared<const TriangleMesh>(mesh_of(name, home, table, "convex_meshes"));
     for (const std::size_t shape : convex) {
       for (const std::size_t task : tasks) {
         for (const std::size_t place : places) {

@@ -11,6 +11,7 @@ namespace touchstone::cells {
 
 // Files are relative to `home`. Throw InputError with file, line and what was expected.
 std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesystem::path& home);
+std::vector<PlannedCell> point_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> cast_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> motion_cells(files::TomlTable& table, const std::filesystem::path& home);

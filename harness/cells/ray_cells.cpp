@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
-#include "harness/base/error.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
 #include "harness/cells/choices.h"
 #include "harness/cells/kinds.h"
-#include "harness/geometry/shapes/named_mesh.h"
+#include "harness/cells/mesh_inputs.h"
 
 namespace touchstone::cells {
 namespace {
@@ -22,40 +23,20 @@ enum class Aim : std::uint8_t { incoherent, coherent, vertices, edges };
 constexpr std::array<std::string_view, 4> aim_names = {"incoherent", "coherent", "vertices",
                                                        "edges"};
 constexpr std::array<std::string_view, 2> ray_task_names = {"closest", "any"};
-// The exact answer takes all triangles of a mesh for each ray, so it is asked for fewer rays.
-constexpr double most_exact_tests = 3e7;
 // A distance that is off by more than this part of itself is wrong, whatever the scalar.
 constexpr double greatest_ray_error = 1e-4;
 
-struct Box {
-  Vec3d low, high;
-};
-Box box_of(const TriangleMesh& mesh) {
-  Box box{mesh.vertices.front(), mesh.vertices.front()};
-  for (const Vec3d& v : mesh.vertices) {
-    box.low = box.low.cwiseMin(v);
-    box.high = box.high.cwiseMax(v);
-  }
-  return box;
-}
-
 // Numbers of rays are floats, so that both scalars answer the same question.
-std::vector<Ray> make_rays(const TriangleMesh& mesh, Aim aim, std::size_t count,
-                           std::uint64_t seed) {
+std::vector<Ray> make_rays(const MeshInput& input, Aim aim, std::size_t count, std::uint64_t seed) {
   base::Random random(seed, static_cast<std::uint64_t>(aim));
-  const Box box = box_of(mesh);
-  const Vec3d centre = 0.5 * (box.low + box.high);
-  const double reach = 0.5 * base::length(box.high - box.low);
-  const auto inside = [&] {
-    Vec3d point;
-    for (int k = 0; k < 3; ++k) point[k] = random.uniform(box.low[k], box.high[k]);
-    return point;
-  };
+  const TriangleMesh& mesh = input.mesh;
+  const Vec3d centre = input.centre();
+  const double reach = 0.5 * base::length(input.high - input.low);
   const Vec3d eye = centre + 2 * reach * Vec3d(0.6, -0.64, 0.48);
   const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < count; ++i) {
-    Vec3d origin = centre + 1.5 * reach * random.on_sphere(), target = inside();
+    Vec3d origin = centre + 1.5 * reach * random.on_sphere(), target = input.draw(random);
     switch (aim) {
       case Aim::incoherent: break;
       case Aim::coherent: {
@@ -97,14 +78,14 @@ std::vector<Ray> make_rays(const TriangleMesh& mesh, Aim aim, std::size_t count,
   return rays;
 }
 
+// Rays of one aim, and the exact answers, which are those of both tasks.
 struct RayInput {
-  TriangleMesh mesh;
   std::vector<Ray> rays;
-  RayTask task;
-  std::vector<RayHit> exact;  // of the first rays
+  std::vector<RayHit> exact;
 };
 
-Grade grade(const RayInput& input, std::span<const RayHit> hits, bool exact_verdicts) {
+Grade grade(const RayInput& input, RayTask task, std::span<const RayHit> hits,
+            bool exact_verdicts) {
   Grade grade;
   for (std::size_t i = 0; i < input.exact.size(); ++i) {
     const RayHit &hit = hits[i], &right = input.exact[i];
@@ -116,7 +97,7 @@ Grade grade(const RayInput& input, std::span<const RayHit> hits, bool exact_verd
       ++(right.hit ? grade.missed : grade.false_hits);
       continue;
     }
-    if (!right.hit || input.task == RayTask::any) continue;
+    if (!right.hit || task == RayTask::any) continue;
     const double error = std::abs(hit.t - right.t) / std::max(right.t, 1e-30);
     // The error is the greatest, or the first that is no number.
     if (!(error <= grade.error)) grade.error = error;
@@ -127,43 +108,69 @@ Grade grade(const RayInput& input, std::span<const RayHit> hits, bool exact_verd
   return grade;
 }
 
-Contestant contestant(const std::shared_ptr<const RayInput>& input, const RayCastEntry& entry,
-                      Precision scalar) {
-  const std::shared_ptr<RayCast> caster = entry.make({.scalar = scalar});
-  caster->bind(input->mesh);
-  const auto hits = std::make_shared<std::vector<RayHit>>(input->rays.size());
-  Contestant made;
-  made.name = entry.info.name;
-  if (entry.scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
-  made.origin = entry.info.origin;
-  made.approximate = !entry.exact_verdicts;
-  made.answer = [=] { caster->cast(input->task, input->rays, *hits); };
-  made.grade = [=, exact = entry.exact_verdicts] { return grade(*input, *hits, exact); };
-  return made;
-}
+// The cells of one mesh. What is bound to it, and the exact answers, serve several of them.
+class RayCells {
+ public:
+  RayCells(std::shared_ptr<const MeshInput> mesh, std::vector<const RayCastEntry*> entries,
+           std::size_t count, std::uint64_t seed)
+      : mesh_(std::move(mesh)), entries_(std::move(entries)), count_(count), seed_(seed) {}
 
-Cell make_ray_cell(const TriangleMesh& mesh, Aim aim, RayTask task, std::size_t count,
-                   std::uint64_t seed, const std::vector<const RayCastEntry*>& entries) {
-  const auto input = std::make_shared<RayInput>();
-  input->mesh = mesh;
-  input->rays = make_rays(mesh, aim, count, seed);
-  input->task = task;
-  const double each = std::max<double>(1, static_cast<double>(mesh.triangles.size()));
-  input->exact.resize(std::clamp<std::size_t>(static_cast<std::size_t>(most_exact_tests / each), 64,
-                                              input->rays.size()));
-  const std::unique_ptr<RayCast> oracle = find_ray_cast("exact")->make({});
-  oracle->bind(mesh);
-  oracle->cast(task, std::span(input->rays).first(input->exact.size()), input->exact);
-  Cell cell;
-  cell.queries = static_cast<std::int64_t>(count);
-  cell.graded = std::ssize(input->exact);
-  for (const RayCastEntry* entry : entries) {
-    if (!offers(*entry, task)) continue;
-    for (const Precision scalar : entry->scalars)
-      cell.contestants.push_back(contestant(input, *entry, scalar));
+  Cell make(Aim aim, RayTask task) {
+    const std::shared_ptr<const RayInput> input = input_of(aim);
+    Cell cell;
+    cell.queries = cell.graded = std::ssize(input->rays);
+    for (const RayCastEntry* entry : entries_) {
+      if (!offers(*entry, task)) continue;
+      for (const Precision scalar : entry->scalars)
+        cell.contestants.push_back(contestant(input, task, *entry, scalar));
+    }
+    return cell;
   }
-  return cell;
-}
+
+ private:
+  std::shared_ptr<RayCast> bound(const RayCastEntry& entry, Precision scalar) {
+    std::shared_ptr<RayCast>& caster = bound_[{&entry, scalar}];
+    if (!caster) {
+      caster = entry.make({.scalar = scalar});
+      caster->bind(mesh_->mesh);
+    }
+    return caster;
+  }
+
+  std::shared_ptr<const RayInput> input_of(Aim aim) {
+    if (last_ && last_aim_ == aim) return last_;
+    const auto input = std::make_shared<RayInput>();
+    input->rays = make_rays(*mesh_, aim, count_, seed_);
+    input->exact.resize(input->rays.size());
+    bound(*find_ray_cast("exact"), Precision::float64)
+        ->cast(RayTask::closest, input->rays, input->exact);
+    last_ = input;
+    last_aim_ = aim;
+    return input;
+  }
+
+  Contestant contestant(const std::shared_ptr<const RayInput>& input, RayTask task,
+                        const RayCastEntry& entry, Precision scalar) {
+    const std::shared_ptr<RayCast> caster = bound(entry, scalar);
+    const auto hits = std::make_shared<std::vector<RayHit>>(input->rays.size());
+    Contestant made;
+    made.name = entry.info.name;
+    if (entry.scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
+    made.origin = entry.info.origin;
+    made.approximate = !entry.exact_verdicts;
+    made.answer = [=] { caster->cast(task, input->rays, *hits); };
+    made.grade = [=, exact = entry.exact_verdicts] { return grade(*input, task, *hits, exact); };
+    return made;
+  }
+
+  std::shared_ptr<const MeshInput> mesh_;
+  std::vector<const RayCastEntry*> entries_;
+  std::size_t count_;
+  std::uint64_t seed_;
+  std::map<std::pair<const RayCastEntry*, Precision>, std::shared_ptr<RayCast>> bound_;
+  std::shared_ptr<const RayInput> last_;
+  Aim last_aim_ = Aim::incoherent;
+};
 
 }  // namespace
 
@@ -174,24 +181,14 @@ std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesyste
   const std::vector<std::size_t> tasks = choices(table, "tasks", ray_task_names);
   const auto entries = selected(table, ray_casts(), "ray cast");
   std::vector<PlannedCell> cells;
-  for (const std::string& name :
-       table.texts("meshes", {"torus-2000", "trefoil-10000", "terrain-100000"})) {
-    const auto mesh = std::make_shared<TriangleMesh>();
-    try {
-      geometry::Mesh read = geometry::named_mesh(name, home);
-      mesh->vertices = std::move(read.vertices);
-      mesh->triangles = std::move(read.triangles);
-    } catch (const base::InputError& error) {
-      table.fail("meshes", error.what());
-    }
-    if (mesh->triangles.empty()) table.fail("meshes", name + " has no triangles; expected some");
+  for (const auto& mesh :
+       mesh_inputs(table, home, {"torus-2000", "trefoil-10000", "terrain-100000"})) {
+    const auto maker = std::make_shared<RayCells>(mesh, entries, count, seed);
     for (const std::size_t aim : aims) {
       for (const std::size_t task : tasks) {
-        cells.push_back({fmt::format("{}, {} triangles", name, mesh->triangles.size()),
-                         fmt::format("{} rays, {}", aim_names[aim], ray_task_names[task]), [=] {
-                           return make_ray_cell(*mesh, static_cast<Aim>(aim),
-                                                static_cast<RayTask>(task), count, seed, entries);
-                         }});
+        cells.push_back(
+            {mesh->title, fmt::format("{} rays, {}", aim_names[aim], ray_task_names[task]),
+             [=] { return maker->make(static_cast<Aim>(aim), static_cast<RayTask>(task)); }});
       }
     }
   }

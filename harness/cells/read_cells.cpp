@@ -16,9 +16,9 @@ namespace touchstone::cells {
 namespace {
 
 using MakeCells = std::vector<PlannedCell> (*)(files::TomlTable&, const std::filesystem::path&);
-constexpr std::array<std::string_view, 6> kinds = {"rays",    "casts",  "ccd",
+constexpr std::array<std::string_view, 7> kinds = {"rays",    "points", "casts",  "ccd",
                                                    "concave", "motion", "sliding"};
-constexpr std::array<MakeCells, 6> makers = {ray_cells,     cast_cells,   ccd_cells,
+constexpr std::array<MakeCells, 7> makers = {ray_cells,     point_cells,  cast_cells,   ccd_cells,
                                              concave_cells, motion_cells, sliding_cells};
 
 std::string fingerprint(const std::string& text) {

@@ -1,5 +1,7 @@
 // Blocks of rays at one level of vector instructions: what ray_walk.cpp includes once for each. A file
 // that is included here needs those before it.
+#include "algorithms/kernels/rays/node_lanes.inl"
+
 #include "algorithms/kernels/rays/ray_block.inl"
 #include "algorithms/kernels/rays/ray_finish.inl"
 #include "algorithms/kernels/rays/ray_walk.inl"

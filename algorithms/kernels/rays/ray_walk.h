@@ -3,10 +3,10 @@
 
 #include <span>
 
+#include "algorithms/kernels/rays/points/winding_query.h"
 #include "algorithms/kernels/rays/ray_block.h"
 #include "algorithms/kernels/rays/ray_mesh.h"
 #include "algorithms/kernels/rays/ray_query.h"
-#include "algorithms/kernels/rays/winding_query.h"
 
 namespace touchstone::ray_tree {
 

@@ -1,19 +1,20 @@
 // Exact: points against a triangle mesh in integers, behind the contract of point queries.
 // Paper:   none; textbook geometry in integers without a bound on their length.
-// Steps:   1. `closest`: the squared distance to each vertex, to each edge's line where the point is
-//             beside the edge, and to each plane where the point is over the triangle; the least of these
-//             fractions.
-//          2. `side`: cast a ray whose direction is drawn, and count the triangles that it leaves through
-//             less those that it enters through. If it meets an edge, draw another.
-// Departs: it has no tree, and shares no code with the algorithms that it judges.
+// Steps:   1. `closest`: leave out the triangles that are too far for certain (box_tree). Of the others, the
+//             squared distance to each vertex, to each edge's line where the point is beside the edge, and to
+//             each plane where the point is over the triangle; the least of these fractions.
+//          2. `side`: cast a ray whose direction is drawn at those that it may meet, and count the triangles
+//             that it leaves through less those that it enters through. If it meets an edge, draw another.
+// Departs: it shares no code with the algorithms that it judges.
 // Fails:   never; the distance is rounded. The closest point itself is not given.
-// Cost:    O(n) a point, some microseconds a triangle.
+// Cost:    O(log n) a point where triangles are small, and some microseconds for each that is asked.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <random>
 
 #include "algorithms/oracle/numbers/dyadic.h"
+#include "algorithms/oracle/rays/box_tree.h"
 #include "algorithms/oracle/rays/ray_triangle.h"
 #include "algorithms/point_query.h"
 
@@ -96,7 +97,16 @@ std::optional<int> crossing(const Seen& seen, const IntegerVector& direction) {
 
 class ExactPointQuery final : public PointQuery {
  public:
-  void bind(const TriangleMesh& mesh) override { mesh_ = &mesh; }
+  void bind(const TriangleMesh& mesh) override {
+    mesh_ = &mesh;
+    tree_.build(mesh.vertices, mesh.triangles);
+    mesh_exponent_ = oracle::Dyadic::of_zero;
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t k : triangle) {
+        mesh_exponent_ = std::min(mesh_exponent_, least_exponent(mesh.vertices[k]));
+      }
+    }
+  }
 
   void query(PointTask task, std::span<const Vec3d> points,
              std::span<PointAnswer> answers) override {
@@ -104,56 +114,57 @@ class ExactPointQuery final : public PointQuery {
       answers[i] = {};
       answers[i].status = points[i].allFinite() ? Status::ok : Status::degenerate;
       if (!points[i].allFinite()) continue;
-      place(points[i]);
+      exponent_ = std::min(mesh_exponent_, least_exponent(points[i]));
+      if (exponent_ == oracle::Dyadic::of_zero) exponent_ = 0;
       if (task == PointTask::side) {
-        answers[i].side = side();
+        answers[i].side = side(points[i]);
       } else {
-        find_closest(answers[i]);
+        find_closest(points[i], answers[i]);
       }
     }
   }
 
  private:
-  void place(const Vec3d& point) {
-    exponent_ = least_exponent(point);
-    for (const auto& triangle : mesh_->triangles) {
-      for (const std::uint32_t k : triangle) {
-        exponent_ = std::min(exponent_, least_exponent(mesh_->vertices[k]));
-      }
-    }
-    if (exponent_ == oracle::Dyadic::of_zero) exponent_ = 0;
-    const IntegerVector from = placed(point, exponent_);
-    seen_.clear();
-    for (const auto& [a, b, c] : mesh_->triangles) {
-      const auto& vertices = mesh_->vertices;
-      seen_.push_back({placed(vertices[a], exponent_) - from, placed(vertices[b], exponent_) - from,
-                       placed(vertices[c], exponent_) - from});
-    }
+  Seen seen(std::uint32_t triangle, const IntegerVector& from) const {
+    const auto& [a, b, c] = mesh_->triangles[triangle];
+    const auto& vertices = mesh_->vertices;
+    return {placed(vertices[a], exponent_) - from, placed(vertices[b], exponent_) - from,
+            placed(vertices[c], exponent_) - from};
   }
 
-  void find_closest(PointAnswer& answer) const {
+  void find_closest(const Vec3d& point, PointAnswer& answer) {
+    const IntegerVector from = placed(point, exponent_);
+    tree_.may_be_nearest(point, asked_);
     std::optional<Square> best;
-    for (std::size_t k = 0; k < seen_.size(); ++k) {
-      Square square = distance_to(seen_[k]);
+    for (const std::uint32_t triangle : asked_) {
+      Square square = distance_to(seen(triangle, from));
       if (best && square.top * best->bottom >= best->top * square.bottom) continue;
       best = std::move(square);
-      answer.triangle = static_cast<std::uint32_t>(k);
+      answer.triangle = triangle;
     }
     if (!best) return;
     answer.distance = std::ldexp(std::sqrt(oracle::quotient(best->top, best->bottom)), exponent_);
   }
 
-  PointSide side() const {
-    if (std::ranges::any_of(seen_, has_origin)) return PointSide::surface;
+  PointSide side(const Vec3d& point) {
+    const IntegerVector from = placed(point, exponent_);
+    tree_.may_be_nearest(point, asked_);
+    for (const std::uint32_t triangle : asked_) {
+      if (has_origin(seen(triangle, from))) return PointSide::surface;
+    }
     std::mt19937 random(1);
     for (;;) {
-      const auto drawn = [&] { return Integer(static_cast<int>(random() % 2000001) - 1000000); };
-      const IntegerVector direction = {drawn(), drawn(), drawn()};
+      const auto drawn = [&] { return static_cast<int>(random() % 2000001) - 1000000; };
+      const int x = drawn(), y = drawn(), z = drawn();
+      if (x == 0 && y == 0 && z == 0) continue;
+      const IntegerVector direction = {Integer(x), Integer(y), Integer(z)};
+      tree_.meet_ray(point, Vec3d(x, y, z), asked_);
       int winding = 0;
       bool is_clear = true;
-      for (const Seen& seen : seen_) {
-        if (is_zero(cross(seen[1] - seen[0], seen[2] - seen[0]))) continue;
-        const std::optional<int> crossed = crossing(seen, direction);
+      for (const std::uint32_t triangle : asked_) {
+        const Seen corners = seen(triangle, from);
+        if (is_zero(cross(corners[1] - corners[0], corners[2] - corners[0]))) continue;
+        const std::optional<int> crossed = crossing(corners, direction);
         is_clear = is_clear && crossed;
         winding += crossed.value_or(0);
       }
@@ -162,8 +173,10 @@ class ExactPointQuery final : public PointQuery {
   }
 
   const TriangleMesh* mesh_ = nullptr;
-  int exponent_ = 0;
-  std::vector<Seen> seen_;
+  int mesh_exponent_ = 0,
+      exponent_ = 0;  // of the grid of the mesh, and of that of the point with it
+  oracle::BoxTree tree_;
+  std::vector<std::uint32_t> asked_;
 };
 
 }  // namespace

@@ -18,6 +18,8 @@
 #include <limits>
 #include <string>
 
+#include "algorithms/peers/rays/embree_mesh.h"
+
 namespace touchstone {
 namespace {
 
@@ -42,7 +44,7 @@ class EmbreeRayCast final : public RayCast {
     scene_ = rtcNewScene(device_);
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
     rtcSetSceneFlags(scene_, form_ == RayForm::plain ? RTC_SCENE_FLAG_NONE : RTC_SCENE_FLAG_ROBUST);
-    if (!mesh.triangles.empty()) attach(mesh);
+    if (!mesh.triangles.empty()) attach_mesh(device_, scene_, mesh);
     rtcCommitScene(scene_);
   }
 
@@ -65,27 +67,6 @@ class EmbreeRayCast final : public RayCast {
 
  private:
   static constexpr std::size_t wide = 16;
-
-  void attach(const TriangleMesh& mesh) {
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* const vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), mesh.vertices.size()));
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        vertices[3 * i + k] = static_cast<float>(mesh.vertices[i][static_cast<int>(k)]);
-      }
-    }
-    auto* const triangles = static_cast<unsigned*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(unsigned), mesh.triangles.size()));
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      std::ranges::copy(mesh.triangles[i], triangles + 3 * i);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);  // the scene holds it
-  }
 
   static void write(const Ray& ray, RTCRay& to) {
     to.org_x = static_cast<float>(ray.origin[0]);

@@ -66,6 +66,20 @@ TEST(Cells, OfRays) {
   expect_sound(run(request, folder.path() / "out"), request.cells.size());
 }
 
+TEST(Cells, OfPoints) {
+  const TemporaryFolder folder;
+  const auto request =
+      request_of(folder, "kind = \"points\"\nmeshes = [\"torus-200\"]\nqueries = 64\n");
+  ASSERT_EQ(request.cells.size(), 2U * 2);
+  expect_sound(run(request, folder.path() / "out"), request.cells.size());
+  try {
+    request_of(folder, "kind = \"points\"\nmeshes = [\"terrain-200\"]\n");
+    FAIL();
+  } catch (const base::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("expected a closed surface"));
+  }
+}
+
 TEST(Cells, OfCasts) {
   const TemporaryFolder folder;
   const auto request =

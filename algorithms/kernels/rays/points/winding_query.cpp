@@ -1,5 +1,5 @@
 // The signs that decide whether a triangle is above a point.
-#include "algorithms/kernels/rays/winding_query.h"
+#include "algorithms/kernels/rays/points/winding_query.h"
 
 #include <cmath>
 

@@ -1,0 +1,170 @@
+// Points and meshes: in the box around them, and near their surface.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "algorithms/core/nearest_float.h"
+#include "algorithms/registry.h"
+#include "harness/base/plain_math.h"
+#include "harness/base/random.h"
+#include "harness/cells/choices.h"
+#include "harness/cells/kinds.h"
+#include "harness/cells/mesh_inputs.h"
+
+namespace touchstone::cells {
+namespace {
+
+enum class Place : std::uint8_t { volume, near };
+constexpr std::array<std::string_view, 2> point_place_names = {"volume", "near"};
+constexpr std::array<std::string_view, 2> point_task_names = {"closest", "side"};
+// A distance is wrong if it is off by more, in parts of the mesh's size. Libraries may calculate in floats.
+constexpr double greatest_error_of_ours = 1e-14, greatest_error_of_peers = 1e-5;
+
+// True if each edge goes one way as often as the other.
+bool is_closed_surface(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> open;
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
+      int& count = open[std::minmax(a, b)];
+      count += a < b ? 1 : -1;
+    }
+  }
+  return std::ranges::all_of(open, [](const auto& edge) { return edge.second == 0; });
+}
+
+// In the mesh's box made larger by a half, or within a hundredth of its size of a triangle. All numbers are
+// floats, so that libraries of floats are asked the same.
+std::vector<Vec3d> make_points(const MeshInput& input, Place place, std::size_t count,
+                               std::uint64_t seed) {
+  base::Random random(seed, 16 + static_cast<std::uint64_t>(place));
+  const TriangleMesh& mesh = input.mesh;
+  const double size = base::length(input.high - input.low);
+  std::vector<Vec3d> points;
+  while (points.size() < count) {
+    Vec3d point = input.centre() + 1.5 * (input.draw(random) - input.centre());
+    if (place == Place::near) {
+      const auto& [a, b, c] = mesh.triangles[random.below(mesh.triangles.size())];
+      double v = random.uniform(0, 1), w = random.uniform(0, 1);
+      if (v + w > 1) {
+        v = 1 - v;
+        w = 1 - w;
+      }
+      const Vec3d& from = mesh.vertices[a];
+      point = from + v * (mesh.vertices[b] - from) + w * (mesh.vertices[c] - from) +
+              random.uniform(0, 0.01) * size * random.on_sphere();
+    }
+    points.push_back(nearest_float(point));
+  }
+  return points;
+}
+
+struct PointInput {
+  std::vector<Vec3d> points;
+  std::vector<PointAnswer> exact;
+  double size = 1;  // metres, of the mesh's box
+};
+
+Grade grade_points(const PointInput& input, PointTask task, std::span<const PointAnswer> answers,
+                   bool is_ours) {
+  Grade grade;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const PointAnswer &answer = answers[i], &right = input.exact[i];
+    if (answer.status != Status::ok && answer.status != Status::not_reported) {
+      ++grade.unknown;
+    } else if (task == PointTask::side) {
+      if (answer.side == right.side) continue;
+      const bool is_out = answer.side == PointSide::outside;
+      ++(is_out ? grade.missed : right.side == PointSide::outside ? grade.false_hits : grade.other);
+    } else {
+      const double error = std::abs(answer.distance - right.distance) / input.size;
+      // The error is the greatest, or the first that is no number.
+      if (!(error <= grade.error)) grade.error = error;
+      if (!(error <= (is_ours ? greatest_error_of_ours : greatest_error_of_peers))) ++grade.other;
+    }
+  }
+  return grade;
+}
+
+// The cells of one mesh. What is bound to it serves all of them.
+class PointCells {
+ public:
+  PointCells(std::shared_ptr<const MeshInput> mesh, std::vector<const PointQueryEntry*> entries,
+             std::size_t count, std::uint64_t seed)
+      : mesh_(std::move(mesh)), entries_(std::move(entries)), count_(count), seed_(seed) {}
+
+  Cell make(Place place, PointTask task) {
+    const auto input = std::make_shared<PointInput>();
+    input->points = make_points(*mesh_, place, count_, seed_);
+    input->exact.resize(count_);
+    input->size = base::length(mesh_->high - mesh_->low);
+    bound(*find_point_query("exact"))->query(task, input->points, input->exact);
+    Cell cell;
+    cell.queries = cell.graded = static_cast<std::int64_t>(count_);
+    for (const PointQueryEntry* entry : entries_) {
+      if (std::ranges::count(entry->tasks, task) == 0) continue;
+      const std::shared_ptr<PointQuery> query = bound(*entry);
+      const auto answers = std::make_shared<std::vector<PointAnswer>>(count_);
+      Contestant contestant;
+      contestant.name = entry->info.name;
+      contestant.origin = entry->info.origin;
+      contestant.answer = [=] { query->query(task, input->points, *answers); };
+      contestant.grade = [=, is_ours = entry->info.origin == Origin::ours] {
+        return grade_points(*input, task, *answers, is_ours);
+      };
+      cell.contestants.push_back(std::move(contestant));
+    }
+    return cell;
+  }
+
+ private:
+  std::shared_ptr<PointQuery> bound(const PointQueryEntry& entry) {
+    std::shared_ptr<PointQuery>& query = bound_[&entry];
+    if (!query) {
+      query = entry.make();
+      query->bind(mesh_->mesh);
+    }
+    return query;
+  }
+
+  std::shared_ptr<const MeshInput> mesh_;
+  std::vector<const PointQueryEntry*> entries_;
+  std::size_t count_;
+  std::uint64_t seed_;
+  std::map<const PointQueryEntry*, std::shared_ptr<PointQuery>> bound_;
+};
+
+}  // namespace
+
+std::vector<PlannedCell> point_cells(files::TomlTable& table, const std::filesystem::path& home) {
+  const auto count = static_cast<std::size_t>(table.integer("queries", 16, 100'000'000, 4096));
+  const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
+  const std::vector<std::size_t> places = choices(table, "points", point_place_names);
+  const std::vector<std::size_t> tasks = choices(table, "tasks", point_task_names);
+  const auto entries = selected(table, point_queries(), "point query");
+  const bool asks_side = std::ranges::count(tasks, std::size_t{1}) > 0;
+  std::vector<PlannedCell> cells;
+  for (const auto& mesh :
+       mesh_inputs(table, home, {"torus-2000", "trefoil-10000", "ellipsoid-25000"})) {
+    if (asks_side && !is_closed_surface(mesh->mesh)) {
+      table.fail("meshes", mesh->title + " are open; expected a closed surface for the task side");
+    }
+    const auto maker = std::make_shared<PointCells>(mesh, entries, count, seed);
+    for (const std::size_t place : places) {
+      for (const std::size_t task : tasks) {
+        cells.push_back(
+            {mesh->title,
+             fmt::format("{} points, {}", point_place_names[place], point_task_names[task]),
+             [=] { return maker->make(static_cast<Place>(place), static_cast<PointTask>(task)); }});
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace touchstone::cells
