@@ -18,7 +18,7 @@
 namespace touchstone::stats {
 namespace {
 
-constexpr double confidence = 0.95;
+constexpr double cell_confidence = 0.95;
 
 using Name = std::pair<std::string, std::string>;  // group, cell
 
@@ -57,7 +57,7 @@ void compare(CellTimes& cell) {
   std::vector<double> logs;
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
     logs.push_back(std::log(b[k] / a[k]));
-  const MedianInterval ratio = exponential(median_interval(logs, confidence));
+  const MedianInterval ratio = exponential(median_interval(logs, cell_confidence));
   best.ratio = ratio.median;
   best.low = ratio.low;
   best.high = ratio.high;
@@ -87,7 +87,7 @@ std::vector<CellTimes> read_times(const std::filesystem::path& folder) {
       const std::vector<double>& seconds = cell.by_round[row.grade.algorithm];
       row.samples = std::ssize(seconds);
       if (seconds.empty()) continue;
-      const MedianInterval time = median_interval(seconds, confidence);
+      const MedianInterval time = median_interval(seconds, cell_confidence);
       row.seconds = time.median;
       row.low = time.low;
       row.high = time.high;

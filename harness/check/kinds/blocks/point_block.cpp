@@ -16,16 +16,40 @@
 namespace touchstone::check {
 namespace {
 
-class PointBlock final : public CaseBlock {
-  static constexpr std::size_t places = families::all_point_places.size();
+constexpr std::size_t point_places = families::all_point_places.size();
 
+const std::vector<families::NamedMesh>& point_meshes(bool is_closed) {
+  static const std::vector<families::NamedMesh> closed = families::closed_meshes();
+  static const std::vector<families::NamedMesh> any = families::ray_meshes();
+  return is_closed ? closed : any;
+}
+
+auto drawing_points(std::uint32_t number) {
+  return [number](const TriangleMesh& mesh, std::size_t triangle, families::Draws& draws) {
+    if (number < 2 * point_places) {
+      return tried_point(families::all_point_places[number % point_places], mesh, triangle, draws);
+    }
+    return families::point_off(point_axis()[number - 2 * point_places].of, mesh, triangle, draws);
+  };
+}
+
+auto solver_of(const PointQueryEntry& entry, PointTask task) {
+  return
+      [task, query = std::shared_ptr<PointQuery>(entry.make())](
+          const TriangleMesh& mesh, std::span<const Vec3d> points, std::span<PointAnswer> answers) {
+        query->bind(mesh);
+        query->query(task, points, answers);
+      };
+}
+
+class PointBlock final : public CaseBlock {
  public:
   // First those of closed meshes, then those of any, then those of the axis, with closed ones.
   PointBlock(std::uint32_t number, const BlockRange& range)
-      : place_(families::all_point_places[number % places]),
-        is_closed_(number / places != 1),
+      : place_(families::all_point_places[number % point_places]),
+        is_closed_(number / point_places != 1),
         range_(range),
-        points_(meshes(is_closed_), CaseKind::points, number, range, drawing(number),
+        points_(point_meshes(is_closed_), CaseKind::points, number, range, drawing_points(number),
                 [](const Vec3d& point, double scale) { return Vec3d(scale * point); }) {}
 
   std::vector<GradedCase> ask(const Contestant& contestant, CaseForm form,
@@ -36,7 +60,7 @@ class PointBlock final : public CaseBlock {
     if (task == PointTask::side && !is_closed_) return grades;
     points_.ask(
         form, time_limit, [&](std::size_t i) { return in_form(i, form); },
-        [&] { return solver(entry, task); },
+        [&] { return solver_of(entry, task); },
         [&](std::size_t i, const PointAnswer& answer) {
           const double scale = form == CaseForm::scaled ? points_.numbers(i).scale : 1;
           grades[i] = grade(task, i, answer, scale);
@@ -56,30 +80,6 @@ class PointBlock final : public CaseBlock {
   }
 
  private:
-  static const std::vector<families::NamedMesh>& meshes(bool is_closed) {
-    static const std::vector<families::NamedMesh> closed = families::closed_meshes();
-    static const std::vector<families::NamedMesh> any = families::ray_meshes();
-    return is_closed ? closed : any;
-  }
-
-  static auto drawing(std::uint32_t number) {
-    return [number](const TriangleMesh& mesh, std::size_t triangle, families::Draws& draws) {
-      if (number < 2 * places) {
-        return tried_point(families::all_point_places[number % places], mesh, triangle, draws);
-      }
-      return families::point_off(point_axis()[number - 2 * places].of, mesh, triangle, draws);
-    };
-  }
-
-  static auto solver(const PointQueryEntry& entry, PointTask task) {
-    return [task, query = std::shared_ptr<PointQuery>(entry.make())](
-               const TriangleMesh& mesh, std::span<const Vec3d> points,
-               std::span<PointAnswer> answers) {
-      query->bind(mesh);
-      query->query(task, points, answers);
-    };
-  }
-
   std::optional<std::pair<TriangleMesh, Vec3d>> in_form(std::size_t i, CaseForm form) const {
     const FormNumbers numbers = points_.numbers(i);
     TriangleMesh mesh = points_.mesh(i);
@@ -97,7 +97,7 @@ class PointBlock final : public CaseBlock {
 
   const PointAnswer& truth(std::size_t i, PointTask task) {
     auto& known = truths_[static_cast<std::size_t>(task)];
-    if (known.empty()) known = points_.answers(solver(*find_point_query("exact"), task));
+    if (known.empty()) known = points_.answers(solver_of(*find_point_query("exact"), task));
     return known[i];
   }
 

@@ -18,10 +18,40 @@
 namespace touchstone::check {
 namespace {
 
+const std::vector<families::NamedMesh>& ray_meshes() {
+  static const std::vector<families::NamedMesh> all = families::ray_meshes();
+  return all;
+}
+
+Ray scaled_ray(Ray ray, double scale) {
+  ray.origin *= scale;
+  ray.direction *= scale;
+  return ray;
+}
+
+// Families of the axis come after the aims.
+auto drawing_rays(std::uint32_t number) {
+  return [number](const TriangleMesh& mesh, std::size_t triangle, families::Draws& draws) {
+    constexpr std::size_t aims = families::all_ray_aims.size();
+    if (number < aims) {
+      return families::aimed_ray(families::all_ray_aims[number], mesh, triangle, draws);
+    }
+    return families::ray_from(ray_axis()[number - aims].of, mesh, triangle, draws);
+  };
+}
+
+auto solver_of(const RayCastEntry& entry, RayTask task, Precision scalar) {
+  return [task, cast = std::shared_ptr<RayCast>(entry.make({scalar}))](
+             const TriangleMesh& mesh, std::span<const Ray> rays, std::span<RayHit> hits) {
+    cast->bind(mesh);
+    cast->cast(task, rays, hits);
+  };
+}
+
 class RayBlock final : public CaseBlock {
  public:
   RayBlock(std::uint32_t number, const BlockRange& range)
-      : rays_(meshes(), CaseKind::rays, number, range, drawing(number), scaled) {}
+      : rays_(ray_meshes(), CaseKind::rays, number, range, drawing_rays(number), scaled_ray) {}
 
   std::vector<GradedCase> ask(const Contestant& contestant, CaseForm form,
                               double time_limit) override {
@@ -30,7 +60,7 @@ class RayBlock final : public CaseBlock {
     std::vector<GradedCase> grades(rays_.size());
     rays_.ask(
         form, time_limit, [&](std::size_t i) { return in_form(i, contestant.scalar, form); },
-        [&] { return solver(entry, task, contestant.scalar); },
+        [&] { return solver_of(entry, task, contestant.scalar); },
         [&](std::size_t i, const RayHit& hit) { grades[i] = grade(contestant, entry, i, hit); });
     return grades;
   }
@@ -51,43 +81,13 @@ class RayBlock final : public CaseBlock {
   }
 
  private:
-  static const std::vector<families::NamedMesh>& meshes() {
-    static const std::vector<families::NamedMesh> all = families::ray_meshes();
-    return all;
-  }
-
-  static Ray scaled(Ray ray, double scale) {
-    ray.origin *= scale;
-    ray.direction *= scale;
-    return ray;
-  }
-
-  // Families of the axis come after the aims.
-  static auto drawing(std::uint32_t number) {
-    return [number](const TriangleMesh& mesh, std::size_t triangle, families::Draws& draws) {
-      constexpr std::size_t aims = families::all_ray_aims.size();
-      if (number < aims) {
-        return families::aimed_ray(families::all_ray_aims[number], mesh, triangle, draws);
-      }
-      return families::ray_from(ray_axis()[number - aims].of, mesh, triangle, draws);
-    };
-  }
-
-  static auto solver(const RayCastEntry& entry, RayTask task, Precision scalar) {
-    return [task, cast = std::shared_ptr<RayCast>(entry.make({scalar}))](
-               const TriangleMesh& mesh, std::span<const Ray> rays, std::span<RayHit> hits) {
-      cast->bind(mesh);
-      cast->cast(task, rays, hits);
-    };
-  }
-
   std::optional<std::pair<TriangleMesh, Ray>> in_form(std::size_t i, Precision scalar,
                                                       CaseForm form) const {
     const FormNumbers numbers = rays_.numbers(i);
     TriangleMesh mesh = rays_.mesh(i);
     if (form == CaseForm::scaled) {
       for (Vec3d& vertex : mesh.vertices) vertex *= numbers.scale;
-      return std::pair(std::move(mesh), scaled(rays_[i], numbers.scale));
+      return std::pair(std::move(mesh), scaled_ray(rays_[i], numbers.scale));
     }
     if (form != CaseForm::moved) return std::nullopt;
     const Vec3d shift =
@@ -104,7 +104,7 @@ class RayBlock final : public CaseBlock {
   const RayHit& truth(std::size_t i, Precision scalar) {
     auto& known = truths_[scalar];
     if (known.empty()) {
-      known = rays_.answers(solver(*find_ray_cast("exact"), RayTask::closest, scalar));
+      known = rays_.answers(solver_of(*find_ray_cast("exact"), RayTask::closest, scalar));
     }
     return known[i];
   }
