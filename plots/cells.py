@@ -27,7 +27,7 @@ def draw(rows):
     groups = common.in_order(row["group"] for row in rows)
     cells = {group: common.in_order(row["cell"] for row in rows if row["group"] == group) for group in groups}
     most = max(len(of_group) for of_group in cells.values())
-    figure, grid = common.grid(len(groups), 0.55 + 0.36 * most)
+    figure, grid = common.grid(len(groups), 0.65 + (0.36 if most <= 8 else 0.22) * most)
     # Each algorithm has a line of its own within a cell, so that no mark hides another.
     lines = {name: (k + 0.5) / len(styles) * 0.8 - 0.4 for k, name in enumerate(styles)}
     for axes, group in zip(grid, groups):
@@ -36,10 +36,11 @@ def draw(rows):
             axes.plot([time], [place], **{**styles[row["algorithm"]], "linestyle": "", "zorder": 3})
             if is_wrong(row):
                 axes.plot([time], [place], marker="x", markersize=4.5, color=RED, linestyle="", zorder=4)
-        axes.set_title(group)
+        axes.set_title(group.replace(", ", ",\n"))
         axes.set_xscale("log")
         axes.xaxis.set_major_locator(LogLocator(numticks=5))
-        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.10g}"))
+        if axes.get_xlim()[1] < 1e5:
+            axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.10g}"))
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.set_yticks(range(len(cells[group])), cells[group])
         axes.set_ylim(len(cells[group]) - 0.5, -0.5)
