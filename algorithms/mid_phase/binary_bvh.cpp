@@ -14,7 +14,7 @@
 
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase_of_trees.h"
+#include "algorithms/mid_phase_of_bodies.h"
 
 namespace touchstone {
 namespace {
@@ -52,11 +52,11 @@ class BoxTree {
   double reach_;
 };
 
-class BinaryBvhMidPhase final : public MidPhaseOfTrees<BoxTree> {
+class BinaryBvhMidPhase final : public MidPhaseOfBodies<BoxTree> {
  public:
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const BoxTree &first = tree(a), &second = tree(b);
+    const BoxTree &first = kept(a), &second = kept(b);
     const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
     const double slack = box_slack(frame, first.reach(), second.reach());
     PlacedBox box_a, box_b;

@@ -15,7 +15,7 @@
 #include "algorithms/broad_phase.h"
 #include "algorithms/core/bounds.h"
 #include "algorithms/core/mesh/placed_box.h"
-#include "algorithms/mid_phase.h"
+#include "algorithms/mid_phase_of_bodies.h"
 
 namespace touchstone::entries {
 
@@ -27,11 +27,6 @@ std::vector<BroadPhaseEntry> broad_phase_uniform_grid();
 
 namespace touchstone {
 namespace {
-
-struct PartBoxes {
-  std::vector<Aabb> boxes;
-  double reach;
-};
 
 // The parts of one body in the frame. Those that are finite have a box each.
 struct PlacedParts {
@@ -108,22 +103,13 @@ class Portions {
   const TakePartPairs& take_;
 };
 
-class BroadPhaseOnParts final : public MidPhase {
+class BroadPhaseOnParts final : public MidPhaseOfBodies<PartBoxes> {
  public:
   explicit BroadPhaseOnParts(const BroadPhaseEntry& entry) : broad_(entry.make(executor_)) {}
 
-  std::uint32_t add(std::span<const Aabb> parts) override {
-    bodies_.push_back({{parts.begin(), parts.end()}, reach_of(parts)});
-    return static_cast<std::uint32_t>(bodies_.size() - 1);
-  }
-
-  void refit(std::uint32_t body, std::span<const Aabb> parts) override {
-    bodies_[body] = {{parts.begin(), parts.end()}, reach_of(parts)};
-  }
-
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const PartBoxes &body_a = bodies_[a], &body_b = bodies_[b];
+    const PartBoxes &body_a = kept(a), &body_b = kept(b);
     const CommonFrame frame = common_frame(pose_a, body_a.reach, pose_b, body_b.reach);
     const double slack = box_slack(frame, body_a.reach, body_b.reach);
     a_.place(body_a, frame.a, slack);
@@ -180,7 +166,6 @@ class BroadPhaseOnParts final : public MidPhase {
 
   Executor executor_{1};
   std::unique_ptr<BroadPhase> broad_;
-  std::vector<PartBoxes> bodies_;
   PlacedParts a_, b_;
   std::vector<Aabb> boxes_;  // those of a_, then those of b_
   PairSink pairs_;

@@ -9,30 +9,16 @@
 #include <vector>
 
 #include "algorithms/core/mesh/placed_box.h"
-#include "algorithms/mid_phase.h"
+#include "algorithms/mid_phase_of_bodies.h"
 
 namespace touchstone {
 namespace {
 
-struct NaiveParts {
-  std::vector<Aabb> boxes;
-  double reach;
-};
-
-class NaiveMidPhase final : public MidPhase {
+class NaiveMidPhase final : public MidPhaseOfBodies<PartBoxes> {
  public:
-  std::uint32_t add(std::span<const Aabb> parts) override {
-    bodies_.push_back({{parts.begin(), parts.end()}, reach_of(parts)});
-    return static_cast<std::uint32_t>(bodies_.size() - 1);
-  }
-
-  void refit(std::uint32_t body, std::span<const Aabb> parts) override {
-    bodies_[body] = {{parts.begin(), parts.end()}, reach_of(parts)};
-  }
-
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const NaiveParts &parts_a = bodies_[a], &parts_b = bodies_[b];
+    const PartBoxes &parts_a = kept(a), &parts_b = kept(b);
     const CommonFrame frame = common_frame(pose_a, parts_a.reach, pose_b, parts_b.reach);
     const double slack = box_slack(frame, parts_a.reach, parts_b.reach);
     seen_.clear();
@@ -52,7 +38,6 @@ class NaiveMidPhase final : public MidPhase {
   }
 
  private:
-  std::vector<NaiveParts> bodies_;
   std::vector<PlacedBox> seen_;
   std::vector<IndexPair> found_;
 };

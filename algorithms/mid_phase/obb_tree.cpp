@@ -18,7 +18,7 @@
 
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase_of_trees.h"
+#include "algorithms/mid_phase_of_bodies.h"
 
 namespace touchstone {
 namespace {
@@ -144,11 +144,11 @@ bool are_apart(const PlacedObb& a, const PlacedObb& b, double slack) {
   return false;
 }
 
-class ObbTreeMidPhase final : public MidPhaseOfTrees<ObbTree> {
+class ObbTreeMidPhase final : public MidPhaseOfBodies<ObbTree> {
  public:
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const ObbTree &first = tree(a), &second = tree(b);
+    const ObbTree &first = kept(a), &second = kept(b);
     const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
     const double slack = 4 * box_slack(frame, first.reach(), second.reach());
     return descend(

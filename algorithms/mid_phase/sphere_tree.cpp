@@ -18,7 +18,7 @@
 
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase_of_trees.h"
+#include "algorithms/mid_phase_of_bodies.h"
 
 namespace touchstone {
 namespace {
@@ -88,11 +88,11 @@ class SphereTree {
   double reach_;
 };
 
-class SphereTreeMidPhase final : public MidPhaseOfTrees<SphereTree> {
+class SphereTreeMidPhase final : public MidPhaseOfBodies<SphereTree> {
  public:
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    const SphereTree &first = tree(a), &second = tree(b);
+    const SphereTree &first = kept(a), &second = kept(b);
     const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
     const double slack = 4 * box_slack(frame, first.reach(), second.reach());
     const double stretch_a = stretch(frame.a.rotation), stretch_b = stretch(frame.b.rotation);

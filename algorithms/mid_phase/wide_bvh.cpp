@@ -9,38 +9,30 @@
 // Fails:   boxes of long thin parts that are turned are much larger than the parts.
 // Cost:    O(n log n) build, O(n) refit, 38 bytes a part.
 #include <array>
-#include <vector>
+#include <span>
 
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/bvh/wide_descent.h"
-#include "algorithms/mid_phase.h"
+#include "algorithms/mid_phase_of_bodies.h"
 
 namespace touchstone {
 namespace {
 
-struct WideParts {
+struct WideParts : PartBoxes {
   WideBvh tree;
-  std::vector<Aabb> boxes;
-  double reach;
+
+  explicit WideParts(std::span<const Aabb> parts) : PartBoxes(parts), tree(build_wide_bvh(parts)) {}
+  void refit(std::span<const Aabb> parts) {
+    PartBoxes::refit(parts);
+    touchstone::refit(tree, parts);
+  }
 };
 
-class WideBvhMidPhase final : public MidPhase {
+class WideBvhMidPhase final : public MidPhaseOfBodies<WideParts> {
  public:
-  std::uint32_t add(std::span<const Aabb> parts) override {
-    bodies_.push_back({build_wide_bvh(parts), {parts.begin(), parts.end()}, reach_of(parts)});
-    return static_cast<std::uint32_t>(bodies_.size() - 1);
-  }
-
-  void refit(std::uint32_t body, std::span<const Aabb> parts) override {
-    WideParts& refitted = bodies_[body];
-    touchstone::refit(refitted.tree, parts);
-    refitted.boxes.assign(parts.begin(), parts.end());
-    refitted.reach = reach_of(parts);
-  }
-
   bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                   const TakePartPairs& take) override {
-    Search search{bodies_[a], bodies_[b], {}, 0, take};
+    Search search{kept(a), kept(b), {}, 0, take};
     search.frame = common_frame(pose_a, search.a.reach, pose_b, search.b.reach);
     search.slack = box_slack(search.frame, search.a.reach, search.b.reach);
     const DescentFrame frame = descent_frame(search.frame, search.a.reach, search.b.reach);
@@ -80,7 +72,6 @@ class WideBvhMidPhase final : public MidPhase {
     }
   };
 
-  std::vector<WideParts> bodies_;
   WideDescent descent_;
 };
 

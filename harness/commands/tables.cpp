@@ -67,10 +67,12 @@ int write(const TablesOptions& options) {
                                        : is_folder          ? of
                                                             : of.parent_path();
   if (stats::is_of_cells(of)) {
-    if (options.noisy)
+    const TablesOptions usual;
+    if (options.noisy || options.band != usual.band || options.depth_error != usual.depth_error) {
       throw base::InputError(options.results, 0,
-                             "is of a campaign with [cells], whose disturbed rounds count only "
-                             "where most were disturbed; expected no --noisy");
+                             "is of a campaign with [cells], whose tables know no --noisy, --band "
+                             "and --depth-error; expected none of them");
+    }
     return write_of_cells(is_folder ? of : of.parent_path(), folder);
   }
   const stats::ReportSetting setting = {

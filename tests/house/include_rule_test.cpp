@@ -64,7 +64,7 @@ bool is_contract(const std::string& path) {
       "encoding",          "limit",        "algorithm_info",
       "broad_phase_work",  "pair_query",   "signed_by_two",
       "within_margin",     "moving_pairs", "scene_ray_cast",
-      "mid_phase_of_trees"};
+      "mid_phase_of_bodies"};
   return path.starts_with("algorithms/") && path.ends_with(".h") &&
          contracts.contains(path.substr(11, path.size() - 13));
 }

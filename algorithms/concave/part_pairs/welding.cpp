@@ -2,6 +2,9 @@
 //
 // A triangle alone can be left sideways, across an edge behind which the surface goes on. A body that slides
 // over that edge would be stopped by it, as by a step that is not there.
+//
+// Fails: a body whose origin is below the face is pushed further down. In a valley the face beside the one that
+// the body lies on pushes already where the body reaches its edge alone. A triangle without area keeps its contact.
 #include "algorithms/concave/part_pairs/welding.h"
 
 #include <algorithm>
@@ -34,7 +37,7 @@ void Welding::mend(const PlacedConcave& a, const Vec3d& on_a, const PlacedConcav
 
 void Welding::mend(const MeshContact& of_mesh, bool mesh_is_first, PartContact& contact) const {
   const auto& [mesh, other, triangle, part, on_mesh, normal] = of_mesh;
-  if (neighbours_[mesh.body]->support(triangle, mesh.pose, on_mesh, normal)) return;
+  if (neighbours_[mesh.body]->supports(triangle, mesh.pose, on_mesh, normal)) return;
   const TriangleCorners corners = bodies_[mesh.body].corners(triangle);
   const Vec3d p = mesh.pose(corners[0]);
   const Vec3d across = (mesh.pose(corners[1]) - p).cross(mesh.pose(corners[2]) - p);

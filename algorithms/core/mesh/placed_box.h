@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/mesh/common_frame.h"
@@ -23,6 +24,18 @@ inline double reach_of(std::span<const Aabb> boxes) {
   }
   return reach;
 }
+
+// The boxes of a body's parts in its own frame, as they are.
+struct PartBoxes {
+  std::vector<Aabb> boxes;
+  double reach = 0;  // that of the boxes (metres)
+
+  explicit PartBoxes(std::span<const Aabb> parts) { refit(parts); }
+  void refit(std::span<const Aabb> parts) {
+    boxes.assign(parts.begin(), parts.end());
+    reach = reach_of(parts);
+  }
+};
 
 // The box along the frame's axes around a turned box. That of a boundless box is not finite.
 struct PlacedBox {

@@ -1,7 +1,7 @@
 // The pairs of leaves of two wide trees whose boxes may meet, where both bodies are placed: both
 // trees are descended together. Used by mid-phases and concave phases.
 // Papers: Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996 (the simultaneous descent; of the
-//         fifteen axes only the six of faces are tested); wide_bvh.h has those of the tree.
+//         fifteen axes only the three of the frame are tested); wide_bvh.h has those of the tree.
 #pragma once
 
 #include <array>

@@ -137,8 +137,8 @@ struct WideNearest::Search {
     ways = Ways(world, known.way);
   }
 
-  // To a pair of leaves by the nearest pair of children each time: that with the least bound, and of
-  // those that reach into each other with the nearest centres.
+  // To a pair of leaves by the nearest pair of children each time: that with the least bound and near
+  // centres. Their weight is a guess: it decides where the search begins, and no answer.
   void descend(Open now) {
     while (!now.is_leaf) {
       see(now);

@@ -56,8 +56,8 @@ MeshNeighbours::MeshNeighbours(const TriangleMesh& mesh)
   beside_.erase(repeated.begin(), repeated.end());
 }
 
-bool MeshNeighbours::support(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
-                             const Vec3d& normal) const {
+bool MeshNeighbours::supports(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
+                              const Vec3d& normal) const {
   const auto is_behind = [&](std::uint32_t place) {
     const Vec3d way = pose(mesh_.vertices[place]) - point;
     return !(normal.dot(way) > slack * way.norm());

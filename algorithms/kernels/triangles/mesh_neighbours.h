@@ -23,8 +23,8 @@ class MeshNeighbours {
   // for a millionth of the distance. Around a point in a face that is its triangle, around one on an edge all
   // triangles that share it, around a vertex all that have it. The point (in the world, up to rounding) is one
   // of the triangle, the normal is a unit vector in the world.
-  bool support(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
-               const Vec3d& normal) const;
+  bool supports(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
+                const Vec3d& normal) const;
 
  private:
   struct Edge {

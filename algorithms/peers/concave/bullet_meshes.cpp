@@ -26,6 +26,8 @@
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "algorithms/peers/bullet_bodies.h"
 #include "algorithms/peers/concave/bullet_touching_parts.h"
@@ -108,6 +110,7 @@ class BulletMeshes final : public ConcavePhase {
   }
 
   void bind(std::span<const ConcaveBody> bodies) override {
+    kept_.reset();
     bodies_.clear();
     bodies_.resize(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -127,7 +130,8 @@ class BulletMeshes final : public ConcavePhase {
     outcome.answer = Answer::separated;
     const MeshBody &body_a = bodies_[a.body], &body_b = bodies_[b.body];
     if (body_a.shape() == nullptr || body_b.shape() == nullptr) return;
-    collide(a, b, pairs, nullptr);
+    const bool keeps = task == ConcaveTask::contacts && !gimpact_;
+    collide(a, b, pairs, keeps);
     if (!pairs.empty()) outcome.answer = Answer::overlapping;
     if (task != ConcaveTask::contacts) {
       pairs.clear();
@@ -139,25 +143,26 @@ class BulletMeshes final : public ConcavePhase {
     pairs.erase(repeated.begin(), repeated.end());
   }
 
-  // Of a pair's contacts the deepest.
+  // Of a pair's contacts the deepest. One collision gives the pairs and these, so that `solve` keeps them.
   bool measure(const PlacedConcave& a, const PlacedConcave& b, std::span<const IndexPair> pairs,
                std::vector<PartContact>& contacts) override {
     if (gimpact_) return false;
     contacts.clear();
     const MeshBody &body_a = bodies_[a.body], &body_b = bodies_[b.body];
     if (body_a.shape() == nullptr || body_b.shape() == nullptr) return true;
-    std::vector<IndexPair> touching;
-    std::vector<PartContact> found;
-    collide(a, b, touching, &found);
-    std::ranges::stable_sort(found, [](const PartContact& x, const PartContact& y) {
+    if (!are_kept_of(a, b)) {
+      std::vector<IndexPair> touching;
+      collide(a, b, touching, true);
+    }
+    std::ranges::stable_sort(found_, [](const PartContact& x, const PartContact& y) {
       return x.parts != y.parts ? x.parts < y.parts : x.depth > y.depth;
     });
     for (const IndexPair& pair : pairs) {
-      const auto at = std::ranges::lower_bound(found, pair, {}, &PartContact::parts);
+      const auto at = std::ranges::lower_bound(found_, pair, {}, &PartContact::parts);
       PartContact& contact = contacts.emplace_back();
       contact.parts = pair;
       contact.status = Status::not_reported;
-      if (at == found.end() || at->parts != pair) continue;
+      if (at == found_.end() || at->parts != pair) continue;
       contact = *at;
       if (body_b.arrays != nullptr) contact.normal = -contact.normal;
       contact.point += a.pose.translation;
@@ -166,6 +171,14 @@ class BulletMeshes final : public ConcavePhase {
   }
 
  private:
+  bool are_kept_of(const PlacedConcave& a, const PlacedConcave& b) const {
+    const auto is_same = [](const PlacedConcave& x, const PlacedConcave& y) {
+      return x.body == y.body && x.pose.rotation == y.pose.rotation &&
+             x.pose.translation == y.pose.translation;
+    };
+    return kept_ && is_same(kept_->first, a) && is_same(kept_->second, b);
+  }
+
   static void find_edges(MeshBody& body) {
     body.edges = std::make_unique<btTriangleInfoMap>();
     btGenerateInternalEdgeInfo(static_cast<btBvhTriangleMeshShape*>(body.whole.get()),
@@ -181,7 +194,10 @@ class BulletMeshes final : public ConcavePhase {
   }
 
   void collide(const PlacedConcave& placed_a, const PlacedConcave& placed_b,
-               std::vector<IndexPair>& pairs, std::vector<PartContact>* contacts) {
+               std::vector<IndexPair>& pairs, bool keeps) {
+    found_.clear();
+    kept_.reset();
+    if (keeps) kept_ = {placed_a, placed_b};
     const MeshBody &a = bodies_[placed_a.body], &b = bodies_[placed_b.body];
     place(0, a, placed_a.pose, placed_a.pose.translation);
     place(1, b, placed_b.pose, placed_a.pose.translation);
@@ -194,7 +210,7 @@ class BulletMeshes final : public ConcavePhase {
     btCollisionAlgorithm* algorithm =
         dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
     TouchingParts result(&wrap_a, &wrap_b, a.numbered, b.numbered, pairs);
-    result.contacts = contacts;
+    result.contacts = keeps ? &found_ : nullptr;
     result.welds = welds_;
     algorithm->processCollision(&wrap_a, &wrap_b, info_, &result);
     algorithm->~btCollisionAlgorithm();
@@ -207,6 +223,8 @@ class BulletMeshes final : public ConcavePhase {
   btDispatcherInfo info_;
   std::array<btCollisionObject, 2> objects_;
   std::vector<MeshBody> bodies_;
+  std::vector<PartContact> found_;  // of the bodies in kept_, which collided last
+  std::optional<std::pair<PlacedConcave, PlacedConcave>> kept_;
 };
 
 std::unique_ptr<ConcavePhase> make_gimpact(const ConcaveSettings& settings) {

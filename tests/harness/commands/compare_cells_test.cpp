@@ -100,7 +100,9 @@ TEST_F(CompareCells, TablesAreWrittenAgain) {
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(folder_.read("a/best.csv"), HasSubstr("hit,box,first,second,2"));
   EXPECT_THAT(folder_.read("a/tables.md"), HasSubstr("# Tables of made-up"));
-  EXPECT_EQ(run_program("tables " + folder + " --noisy").status, 2);
+  for (const char* option : {" --noisy", " --band 2", " --depth-error 0.1"}) {
+    EXPECT_EQ(run_program("tables " + folder + option).status, 2) << option;
+  }
   ran = run_program("tables " + folder + " --check");
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("[cells]"));
