@@ -130,8 +130,7 @@ class BulletMeshes final : public ConcavePhase {
     outcome.answer = Answer::separated;
     const MeshBody &body_a = bodies_[a.body], &body_b = bodies_[b.body];
     if (body_a.shape() == nullptr || body_b.shape() == nullptr) return;
-    const bool keeps = task == ConcaveTask::contacts && !gimpact_;
-    collide(a, b, pairs, keeps);
+    collide(a, b, pairs, is_measured_ && task == ConcaveTask::contacts);
     if (!pairs.empty()) outcome.answer = Answer::overlapping;
     if (task != ConcaveTask::contacts) {
       pairs.clear();
@@ -143,13 +142,15 @@ class BulletMeshes final : public ConcavePhase {
     pairs.erase(repeated.begin(), repeated.end());
   }
 
-  // Of a pair's contacts the deepest. One collision gives the pairs and these, so that `solve` keeps them.
+  // Of a pair's contacts the deepest. One collision gives the pairs and these, so `solve` keeps them from the first
+  // call on.
   bool measure(const PlacedConcave& a, const PlacedConcave& b, std::span<const IndexPair> pairs,
                std::vector<PartContact>& contacts) override {
     if (gimpact_) return false;
     contacts.clear();
     const MeshBody &body_a = bodies_[a.body], &body_b = bodies_[b.body];
     if (body_a.shape() == nullptr || body_b.shape() == nullptr) return true;
+    is_measured_ = true;
     if (!are_kept_of(a, b)) {
       std::vector<IndexPair> touching;
       collide(a, b, touching, true);
@@ -218,6 +219,7 @@ class BulletMeshes final : public ConcavePhase {
   }
 
   bool gimpact_, welds_;
+  bool is_measured_ = false;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDispatcherInfo info_;
