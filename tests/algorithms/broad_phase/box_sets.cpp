@@ -265,6 +265,12 @@ std::vector<BoxSet> box_sets() {
   return sets;
 }
 
+std::vector<IndexPair> sorted(const PairSink& sink) {
+  std::vector<IndexPair> pairs = sink.gather();
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
 std::vector<IndexPair> true_pairs(std::span<const Aabb> boxes) {
   std::vector<IndexPair> pairs;
   for (std::uint32_t a = 0; a < boxes.size(); ++a) {

@@ -32,6 +32,9 @@ std::vector<Aabb> uniform_boxes(Random& random, std::size_t count, float side);
 
 std::vector<BoxSet> box_sets();
 
+// What was found, ascending.
+std::vector<IndexPair> sorted(const PairSink& sink);
+
 // Every pair that overlaps, ascending, by definition.
 std::vector<IndexPair> true_pairs(std::span<const Aabb> boxes);
 

@@ -137,12 +137,6 @@ const History histories[] = {
     {.name = "in turns", .bodies = 200, .frames = 300, .side = 0.2f, .moved = 0.06f, .reach = 0.3f},
 };
 
-std::vector<IndexPair> sorted(const PairSink& sink) {
-  auto pairs = sink.gather();
-  std::ranges::sort(pairs);
-  return pairs;
-}
-
 class LongHistories : public testing::TestWithParam<const BroadPhaseEntry*> {};
 
 TEST_P(LongHistories, AreFollowed) {

@@ -18,12 +18,6 @@ namespace {
 using Ids = std::vector<std::uint32_t>;
 using Pairs = std::vector<IndexPair>;
 
-Pairs sorted(const PairSink& sink) {
-  Pairs pairs = sink.gather();
-  std::ranges::sort(pairs);
-  return pairs;
-}
-
 Pairs true_pairs_of(const Ids& bodies, const Pairs& all) {
   Pairs pairs;
   std::ranges::copy_if(all, std::back_inserter(pairs), [&](IndexPair pair) {

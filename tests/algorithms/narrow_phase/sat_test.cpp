@@ -100,7 +100,7 @@ AxisTally sweep(const MakeShape& make_a, const MakeShape& make_b, int count, dou
 Shape unit_box(Random& random) {
   return box(uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1));
 }
-Shape any_hull(Random& random) { return random_hull(random, 4 + static_cast<int>(random() % 9)); }
+Shape small_hull(Random& random) { return random_hull(random, 4 + static_cast<int>(random() % 9)); }
 Shape flat_hull(Random& random) {
   // Small integers times a power of two: flat in exact arithmetic.
   std::vector<Vec3d> points;
@@ -197,8 +197,8 @@ TEST(Sat, AgreesFarFromTheOrigin) {
   for (int k = 0; k < 300; ++k) {
     // Far in the world, and far from the body's own origin.
     const Vec3d far = 1e8 * random_direction(random), baked = 1e8 * random_direction(random);
-    Shape a = any_hull(random);
-    const Shape b = any_hull(random);
+    Shape a = small_hull(random);
+    const Shape b = small_hull(random);
     auto moved = std::make_shared<Hull>(*a.hull);
     for (Vec3d& v : moved->vertices) v += baked;
     a.hull = moved;
@@ -302,8 +302,8 @@ TEST(Sat, WitnessPointsLieOnBothBodies) {
   Random random(20);
   int overlapping = 0;
   for (int k = 0; k < 1500; ++k) {
-    const Shape a = k % 2 == 0 ? unit_box(random) : any_hull(random);
-    const Shape b = k % 3 == 0 ? unit_box(random) : any_hull(random);
+    const Shape a = k % 2 == 0 ? unit_box(random) : small_hull(random);
+    const Shape b = k % 3 == 0 ? unit_box(random) : small_hull(random);
     const Pose pose_a{k % 5 == 0 ? Mat3d::Identity() : random_rotation(random), Vec3d::Zero()};
     const Pose pose_b{k % 5 == 0 ? Mat3d::Identity() : random_rotation(random),
                       uniform(random, 0, 1.5) * random_direction(random)};
@@ -324,7 +324,7 @@ TEST(Sat, WitnessPointsLieOnBothBodies) {
 
 TEST(Sat, SaysSoWhereAHullHasNoFaces) {
   Random random(21);
-  const Shape whole = any_hull(random);
+  const Shape whole = small_hull(random);
   const Shape bare = bare_hull(whole.hull->vertices, 3);
   const Pose here;
   const Pose away{Mat3d::Identity(), {5, 0, 0}}, inside{Mat3d::Identity(), {0.1, 0, 0}};
@@ -345,8 +345,8 @@ TEST(Sat, TakesMatricesLiterally) {
   Random random(22);
   AxisTally tally;
   for (int k = 0; k < 300; ++k) {
-    const Shape a = k % 2 == 0 ? unit_box(random) : any_hull(random);
-    const Shape b = k % 3 == 0 ? unit_box(random) : any_hull(random);
+    const Shape a = k % 2 == 0 ? unit_box(random) : small_hull(random);
+    const Shape b = k % 3 == 0 ? unit_box(random) : small_hull(random);
     const auto coarse = [&] {
       Mat3d m = random_rotation(random).cast<float>().cast<double>();
       if (k % 4 == 0) m.col(0) *= -1;  // a reflection

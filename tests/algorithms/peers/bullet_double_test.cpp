@@ -21,18 +21,18 @@ namespace {
 
 constexpr std::array names = {"bullet-gjk-epa", "bullet-box-box", "bullet-sat", "bullet-mpr"};
 
-Shape box(base::Random& random) {
+Shape some_box(base::Random& random) {
   Shape shape;
   shape.kind = ShapeKind::box;
   for (double& half : shape.half_extents) half = random.uniform(0.3, 1);
   return shape;
 }
-Shape sphere(base::Random& random) {
+Shape some_sphere(base::Random& random) {
   Shape shape;
   shape.radius = random.uniform(0.3, 1);
   return shape;
 }
-Shape hull(base::Random& random) {
+Shape some_hull(base::Random& random) {
   std::vector<Vec3d> points;
   for (int i = 0; i < 16; ++i) points.push_back(random.on_sphere() + Vec3d(0.3, 0.1, 0.2));
   Shape shape;
@@ -118,7 +118,7 @@ class BulletDouble : public testing::Test {
 // their queries in turns.
 TEST_F(BulletDouble, NeitherBuildDisturbsTheOther) {
   for (const NarrowPhaseEntry* entry : entries_) {
-    const Pairs pairs(box, box);
+    const Pairs pairs(some_box, some_box);
     for (const Task task : entry->tasks) {
       SCOPED_TRACE(entry->info.name + " " + std::string(to_string(task)));
       std::array<std::vector<Outcome>, 2> alone;
@@ -152,7 +152,7 @@ TEST_F(BulletDouble, NeitherBuildDisturbsTheOther) {
 TEST_F(BulletDouble, DistancesAreDoubles) {
   const NarrowPhaseEntry& entry = *entries_.front();
   oracle::Oracle oracle;
-  for (const Pairs& pairs : {Pairs(box, box), Pairs(sphere, box), Pairs(hull, hull)}) {
+  for (const Pairs& pairs : {Pairs(some_box, some_box), Pairs(some_sphere, some_box), Pairs(some_hull, some_hull)}) {
     const auto in_float = pairs.ask(entry, Precision::float32, Task::distance);
     const auto in_double = pairs.ask(entry, Precision::float64, Task::distance);
     int apart = 0, coarse = 0;

@@ -48,7 +48,7 @@ Shape hull(std::vector<Vec3d> points, int dimension = 3) {
 constexpr double prism_reach = 1.5, prism_half_height = 1;
 
 // A hexagonal prism along z, its vertices moved by `at`.
-Shape prism(const Vec3d& at = Vec3d::Zero()) {
+Shape hexagonal_prism(const Vec3d& at = Vec3d::Zero()) {
   std::vector<Vec3d> points;
   for (int corner = 0; corner < 6; ++corner) {
     const double angle = corner * std::numbers::pi / 3;
@@ -67,7 +67,7 @@ std::vector<Shape> bounded_shapes() {
           round(ShapeKind::cylinder, 1.5, 1.25),
           round(ShapeKind::cone, 1.5, 1),
           ellipsoid({1, 1.5, 1.25}),
-          prism()};
+          hexagonal_prism()};
 }
 
 // Half of the extent in z.
@@ -340,9 +340,9 @@ TEST_P(BulletNarrowPhaseTest, CentresHullsFarFromTheirOrigin) {
   if (!offers(*entry_, ShapeKind::hull, ShapeKind::hull, Task::intersect)) return;
   const Vec3d at_a(1000, -300, 50), at_b(-70, 4000, 900);
   for (const double gap : {0.25, -0.25}) {
-    Pair pair = stacked(prism(), prism(), gap, motions()[1]);
-    pair.a = prism(at_a);
-    pair.b = prism(at_b);
+    Pair pair = stacked(hexagonal_prism(), hexagonal_prism(), gap, motions()[1]);
+    pair.a = hexagonal_prism(at_a);
+    pair.b = hexagonal_prism(at_b);
     pair.at_a.translation -= pair.at_a.rotation * at_a;
     pair.at_b.translation -= pair.at_b.rotation * at_b;
     EXPECT_EQ(ask(*entry_, scalar_, Task::intersect, pair).answer,

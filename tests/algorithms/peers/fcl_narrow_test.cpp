@@ -14,11 +14,6 @@ constexpr std::array<double, 5> fcl_gaps = {1, 0.1, 0.01, -0.01, -0.05};
 constexpr std::array<double, 3> apart = {1, 0.1, 0.01};
 constexpr std::array<double, 2> overlaps = {-0.01, -0.05};
 
-std::string kinds_of(const KnownPair& pair) {
-  return std::string(to_string(pair.a.shape.kind)) + ", " +
-         std::string(to_string(pair.b.shape.kind)) + ", gap " + std::to_string(pair.gap);
-}
-
 // FCL's own test of these is wrong: a cone whose tip points down, and any two half-spaces.
 bool is_wrong_in_fcl(const KnownPair& pair) {
   return pair.b.shape.kind == ShapeKind::halfspace &&

@@ -23,11 +23,6 @@ class MujocoTest : public testing::Test {
   const NarrowPhaseEntry* entry_ = find_narrow_phase("mujoco");
 };
 
-std::string kinds_of(const KnownPair& pair) {
-  return std::string(to_string(pair.a.shape.kind)) + ", " +
-         std::string(to_string(pair.b.shape.kind)) + ", gap " + std::to_string(pair.gap);
-}
-
 bool both_are(const KnownPair& pair, ShapeKind kind) {
   return pair.a.shape.kind == kind && pair.b.shape.kind == kind;
 }

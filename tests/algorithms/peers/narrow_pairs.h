@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -295,6 +296,12 @@ struct KnownPair {
   Vec3d direction;
   bool deep;  // gap < 0: whether its opposite is the depth
 };
+
+// What a failure says of a pair.
+inline std::string kinds_of(const KnownPair& pair) {
+  return std::string(to_string(pair.a.shape.kind)) + ", " +
+         std::string(to_string(pair.b.shape.kind)) + ", gap " + std::to_string(pair.gap);
+}
 
 // Every pair of kinds that the algorithm takes for the task, shapes and features, at each gap, in
 // `rounds` random poses.

@@ -25,11 +25,6 @@ class OdeNarrowPhaseTest : public testing::Test {
   const NarrowPhaseEntry* entry_ = find_narrow_phase("ode");
 };
 
-std::string kinds_of(const KnownPair& pair) {
-  return std::string(to_string(pair.a.shape.kind)) + ", " +
-         std::string(to_string(pair.b.shape.kind)) + ", gap " + std::to_string(pair.gap);
-}
-
 TEST_F(OdeNarrowPhaseTest, OffersSpheresCapsulesBoxesAndPlanes) {
   for (const Task task : {Task::intersect, Task::penetration}) {
     EXPECT_TRUE(offers(*entry_, ShapeKind::sphere, ShapeKind::sphere, task));

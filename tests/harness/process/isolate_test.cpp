@@ -3,11 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +14,7 @@
 #include <thread>
 
 #include "harness/base/clock.h"
+#include "tests/harness/process/no_child_is_left.h"
 
 namespace touchstone {
 namespace {
@@ -52,11 +51,6 @@ struct SevenItems {
     }
   }
 };
-
-void expect_no_child_is_left() {
-  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
-  EXPECT_EQ(errno, ECHILD);
-}
 
 TEST(Isolate, DoesTheWorkInAnotherProcess) {
   process::SharedArray<pid_t> pids(100);

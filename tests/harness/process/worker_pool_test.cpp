@@ -3,25 +3,20 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/harness/process/no_child_is_left.h"
+
 namespace touchstone {
 namespace {
 
 using ::testing::HasSubstr;
-
-void expect_no_child_is_left() {
-  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
-  EXPECT_EQ(errno, ECHILD);
-}
 
 TEST(WorkerPool, ResultsComeInOrderFromAllWorkers) {
   std::vector<std::size_t> order;

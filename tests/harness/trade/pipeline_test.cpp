@@ -18,7 +18,7 @@ count = 150
 overlaps = 6
 shapes = ["box", "sphere", "capsule", {type = "hull", points = 12}]
 )";
-const std::string boxes = R"(
+const std::string boxes_alone = R"(
 generator = "uniform"
 count = 120
 overlaps = 6
@@ -205,7 +205,7 @@ TEST(TradePipeline, WhatRestsIsSettledOnceAndFatBoxesAreKept) {
 // A box and its eight octants are equal sets of points.
 TEST(TradePipeline, PartsAnswerAsTheWhole) {
   for (const Task task : {Task::intersect, Task::distance}) {
-    World world(boxes, task);
+    World world(boxes_alone, task);
     trade::TradeGrid whole = grid_with("certified");
     trade::TradeGrid octants = whole;
     octants.representations = {all_as(proxies::Form::dop26)};
@@ -240,7 +240,7 @@ TEST(TradePipeline, PartsAnswerAsTheWhole) {
 
 // A configuration that crashes has a row of its own, and the others are complete.
 TEST(TradePipeline, WhatThrowsCostsItselfAlone) {
-  World world(boxes);
+  World world(boxes_alone);
   const auto truth = world.truth();
   NarrowPhaseEntry broken = *find_narrow_phase("gjk");
   broken.make = [](const NarrowPhaseSettings&) -> std::unique_ptr<NarrowPhase> {

@@ -31,7 +31,7 @@ class PlantedBroadPhase final : public BroadPhase {
   std::span<const Aabb> boxes_;
 };
 
-BroadPhaseEntry planted(const Find& find, Origin origin = Origin::ours) {
+BroadPhaseEntry planted_search(const Find& find, Origin origin = Origin::ours) {
   return {.info = {.name = "planted", .citation = "a test", .origin = origin},
           .make = [=](Executor&) { return std::make_unique<PlantedBroadPhase>(find); }};
 }
@@ -108,9 +108,9 @@ TEST(BroadCheck, EveryOneOfOurs) {
 TEST(BroadCheck, ADroppedPairIsFound) {
   const std::vector<check::BoxScene> scenes = check::box_scenes(1);
   const BroadPhaseEntry good =
-      planted([](auto boxes, auto& sink) { return all_but(0, boxes, sink); });
+      planted_search([](auto boxes, auto& sink) { return all_but(0, boxes, sink); });
   const BroadPhaseEntry bad =
-      planted([](auto boxes, auto& sink) { return all_but(1, boxes, sink); });
+      planted_search([](auto boxes, auto& sink) { return all_but(1, boxes, sink); });
   for (const check::BroadCheck& one : check(good, scenes)) EXPECT_TRUE(one.good()) << one.faults();
   for (const check::BroadCheck& one : check(bad, scenes)) {
     EXPECT_FALSE(one.good());
@@ -158,7 +158,7 @@ TEST(BroadCheck, WrongAnswersToOtherQuestionsAreFound) {
 TEST(BroadCheck, CrashesHangsAndRefusalsAreFound) {
   const std::vector<check::BoxScene> scenes = {check::box_scenes(1)[0]};
   const auto status = [&](const Find& find, double seconds) {
-    const BroadPhaseEntry entry = planted(find, Origin::peer);
+    const BroadPhaseEntry entry = planted_search(find, Origin::peer);
     const std::vector<const BroadPhaseEntry*> entries = {&entry};
     const std::vector<check::BroadCheck> checks =
         check::check_broad_phases(entries, scenes, seconds);
