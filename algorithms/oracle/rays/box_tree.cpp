@@ -1,6 +1,6 @@
 // What a ray or a point cannot meet, by comparisons and by doubles with a bound on their rounding.
 //
-// Steps: 1. Halve the triangles at the median along their longest axis, down to one.
+// Steps: 1. Halve the boxes at the median along their longest axis, down to one.
 //        2. A ray misses a box that lies behind its origin on an axis, or beside its line as seen along
 //           an axis: on the far side by more than all roundings.
 //        3. A ray misses a triangle if it passes two of its edges on different sides, for certain.
@@ -16,7 +16,7 @@
 namespace touchstone::oracle {
 namespace {
 
-constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_item = std::numeric_limits<std::uint32_t>::max();
 // Sums of a few products of differences are off by less than 16 roundings of their magnitudes. What
 // underflows is less than the last.
 constexpr double rounding = 0x1p-48, underflow = 1e-290;
@@ -80,12 +80,27 @@ double square_to(const Vec3d& point, const Vec3d& low, const Vec3d& high) {
 void BoxTree::build(std::span<const Vec3d> vertices, Triangles triangles) {
   vertices_ = vertices;
   triangles_ = triangles;
-  leaves_ = std::bit_ceil(std::max<std::size_t>(triangles.size(), 1));
+  std::vector<Box> boxes(triangles.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    const auto [a, b, c] = corners(i);
+    boxes[i] = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+  }
+  build_of(boxes);
+}
+
+void BoxTree::build(std::span<const Box> boxes) {
+  vertices_ = {};
+  triangles_ = {};
+  build_of(boxes);
+}
+
+void BoxTree::build_of(std::span<const Box> boxes) {
+  leaves_ = std::bit_ceil(std::max<std::size_t>(boxes.size(), 1));
   nodes_.resize(2 * leaves_ - 1);
-  of_leaf_.assign(leaves_, no_triangle);
-  std::vector<std::uint32_t> numbers(triangles.size());
+  of_leaf_.assign(leaves_, no_item);
+  std::vector<std::uint32_t> numbers(boxes.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::uint32_t>(i);
-  fill(0, numbers);
+  fill(0, boxes, numbers);
 }
 
 std::array<Vec3d, 3> BoxTree::corners(std::uint32_t triangle) const {
@@ -93,15 +108,13 @@ std::array<Vec3d, 3> BoxTree::corners(std::uint32_t triangle) const {
   return {vertices_[a], vertices_[b], vertices_[c]};
 }
 
-void BoxTree::fill(std::size_t node, std::span<std::uint32_t> part) {
+void BoxTree::fill(std::size_t node, std::span<const Box> boxes, std::span<std::uint32_t> part) {
   constexpr double most = std::numeric_limits<double>::infinity();
   Box& box = nodes_[node];
   box = {Vec3d::Constant(most), Vec3d::Constant(-most)};
-  for (const std::uint32_t triangle : part) {
-    for (const Vec3d& corner : corners(triangle)) {
-      box.low = box.low.cwiseMin(corner);
-      box.high = box.high.cwiseMax(corner);
-    }
+  for (const std::uint32_t item : part) {
+    box.low = box.low.cwiseMin(boxes[item].low);
+    box.high = box.high.cwiseMax(boxes[item].high);
   }
   if (node >= leaves_ - 1) {
     if (!part.empty()) of_leaf_[node - (leaves_ - 1)] = part.front();
@@ -111,14 +124,13 @@ void BoxTree::fill(std::size_t node, std::span<std::uint32_t> part) {
   if (part.size() > 1) {
     Eigen::Index axis = 0;
     (box.high - box.low).maxCoeff(&axis);
-    const auto place = [&](std::uint32_t triangle) {
-      const auto& [a, b, c] = triangles_[triangle];
-      return vertices_[a][axis] / 3 + vertices_[b][axis] / 3 + vertices_[c][axis] / 3;
+    const auto middle = [&](std::uint32_t item) {
+      return boxes[item].low[axis] / 2 + boxes[item].high[axis] / 2;
     };
-    std::ranges::nth_element(part, part.begin() + static_cast<std::ptrdiff_t>(half), {}, place);
+    std::ranges::nth_element(part, part.begin() + static_cast<std::ptrdiff_t>(half), {}, middle);
   }
-  fill(2 * node + 1, part.first(half));
-  fill(2 * node + 2, part.subspan(half));
+  fill(2 * node + 1, boxes, part.first(half));
+  fill(2 * node + 2, boxes, part.subspan(half));
 }
 
 template <class Enter, class Take>
@@ -131,7 +143,7 @@ void BoxTree::walk(Enter&& enters, Take&& take) const {
     if (node < leaves_ - 1) {
       open.push_back(2 * node + 2);
       open.push_back(2 * node + 1);
-    } else if (of_leaf_[node - (leaves_ - 1)] != no_triangle) {
+    } else if (of_leaf_[node - (leaves_ - 1)] != no_item) {
       take(of_leaf_[node - (leaves_ - 1)]);
     }
   }
@@ -145,8 +157,10 @@ void BoxTree::meet_ray(const Vec3d& origin, const Vec3d& direction,
         return !is_behind(origin, direction, box.low, box.high) &&
                !is_beside(origin, direction, box.low, box.high);
       },
-      [&](std::uint32_t triangle) {
-        if (!passes_by(origin, direction, corners(triangle))) found.push_back(triangle);
+      [&](std::uint32_t item) {
+        if (triangles_.empty() || !passes_by(origin, direction, corners(item))) {
+          found.push_back(item);
+        }
       });
   std::ranges::sort(found);
 }

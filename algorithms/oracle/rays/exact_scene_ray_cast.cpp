@@ -1,21 +1,28 @@
-// Exact: rays at scenes as casts of a point, behind the contract of ray casts at scenes.
-// Paper:   none; a ray is a point that moves. See cast/exact_cast for what moves exactly.
-// Steps:   1. For each triangle and convex part, a power of two times the direction is a displacement
-//             that passes it; a point moves by it, and the oracle of casts says when they first touch.
-//          2. Times are compared by their brackets.
-// Departs: it has no tree, and shares no code with the algorithms that it judges.
-// Fails:   spheres, capsules, boxes, hulls and triangles are exact but for the time, which is within 2^-80
-//          of the displacement; the others have an enclosure, which for half-spaces
-//          often tells nothing. Where a bracket does not tell whether a hit is
-//          within t_max, or the oracle of casts does not know, the status is `not_converged`. Normals
-//          are not given. Of parts that are hit at one time, the first is reported.
-// Cost:    O(n) a ray: a tenth of a millisecond a part.
+// Exact: rays at scenes in integers, behind the contract of ray casts at scenes.
+// Paper:   none. A ray at a convex part is a point that moves: see cast/exact_cast for what moves exactly. A
+//          ray at a triangle is one in the plane of three placed points: see ray_triangle.
+// Steps:   1. Leave out what the ray passes for certain (box_tree over boxes in the world).
+//          2. Of the triangles that are left, compare the fractions at which the ray is first in them.
+//          3. For each convex part that is left, a power of two times the direction is a displacement that
+//             passes it; a point moves by it, and the oracle of casts says when they first touch.
+//          4. Times of convex parts are compared by their brackets.
+// Departs: it shares no code with the algorithms that it judges.
+// Fails:   triangles are exact; spheres, capsules, boxes and hulls are but for the time, which is within
+//          2^-80 of the displacement; the others have an enclosure, which for half-spaces often tells
+//          nothing. Where a bracket does not tell whether a hit is within t_max, or the oracle of casts does
+//          not know, the status is `not_converged`. Normals are not given. Of parts that are hit at
+//          one time, the first is reported. Poses of parts within bodies are multiplied in doubles.
+// Cost:    O(log n) a ray where parts are small, some microseconds for each triangle and a tenth of a
+//          millisecond for each convex part that may be hit; 100 bytes a part.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "algorithms/cast.h"
 #include "algorithms/core/bounds.h"
+#include "algorithms/oracle/rays/box_tree.h"
+#include "algorithms/oracle/rays/ray_triangle.h"
 #include "algorithms/scene_ray_cast.h"
 
 namespace touchstone::entries {
@@ -25,22 +32,51 @@ std::vector<CastEntry> oracle_exact_cast();
 namespace touchstone {
 namespace {
 
+using Box = oracle::BoxTree::Box;
+
+// The box of a placed triangle, widened by more than all roundings.
+Box box_of(const std::array<Vec3d, 3>& triangle, const Pose& pose) {
+  Box box{Vec3d::Constant(HUGE_VAL), Vec3d::Constant(-HUGE_VAL)};
+  for (const Vec3d& v : triangle) {
+    const Vec3d at = pose(v);
+    const Vec3d size = pose.rotation.cwiseAbs() * v.cwiseAbs() + pose.translation.cwiseAbs();
+    const Vec3d margin = 0x1p-48 * size + Vec3d::Constant(1e-290);
+    box.low = box.low.cwiseMin(at - margin);
+    box.high = box.high.cwiseMax(at + margin);
+  }
+  return box;
+}
+
+Box box_of(const Shape& shape, const Pose& pose) {
+  const Aabb box = tight_box(shape, pose);
+  Box wide;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    wide.low[k] = box.min[static_cast<std::size_t>(k)];
+    wide.high[k] = box.max[static_cast<std::size_t>(k)];
+  }
+  return wide;
+}
+
 class ExactSceneCast final : public SceneRayCast {
  public:
   ExactSceneCast() : cast_(entries::oracle_exact_cast().front().make({})) {}
 
   void bind(std::span<const SceneBody> bodies) override {
     shapes_.clear();
-    parts_.clear();
     within_.clear();
+    parts_.clear();
     std::vector<Pose> poses;
     for (std::uint32_t b = 0; b < bodies.size(); ++b) {
       const ConcaveBody& body = bodies[b].body;
       poses.push_back(bodies[b].pose);
       for (std::uint32_t p = 0; p < body.part_count(); ++p) {
-        parts_.push_back({b, p});
-        shapes_.push_back(body.mesh ? triangle(*body.mesh, p) : body.parts[p].shape);
-        within_.push_back(body.mesh ? Pose{} : body.parts[p].pose);
+        if (body.mesh) {
+          parts_.push_back({b, p, 0, body.mesh.get()});
+          continue;
+        }
+        parts_.push_back({b, p, static_cast<std::uint32_t>(shapes_.size()), nullptr});
+        shapes_.push_back(body.parts[p].shape);
+        within_.push_back(body.parts[p].pose);
       }
     }
     Shape point;  // a ball without a radius
@@ -50,13 +86,27 @@ class ExactSceneCast final : public SceneRayCast {
   }
 
   void place(std::span<const Pose> poses) override {
-    poses_.resize(parts_.size() + 1);
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const Pose& body = poses[parts_[i].body];
-      const bool same = within_[i].rotation.isIdentity(0) && within_[i].translation.isZero(0);
-      poses_[i] =
-          same ? body : Pose{body.rotation * within_[i].rotation, body(within_[i].translation)};
+    poses_of_bodies_.assign(poses.begin(), poses.end());
+    poses_.resize(shapes_.size());
+    unbounded_.clear();
+    std::vector<Box> boxes(parts_.size());
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      const Part& part = parts_[i];
+      const Pose& body = poses[part.body];
+      if (part.mesh != nullptr) {
+        boxes[i] = box_of(corners(part), body);
+      } else {
+        const Pose& within = within_[part.shape];
+        const bool same = within.rotation.isIdentity(0) && within.translation.isZero(0);
+        poses_[part.shape] =
+            same ? body : Pose{body.rotation * within.rotation, body(within.translation)};
+        boxes[i] = box_of(shapes_[part.shape], poses_[part.shape]);
+      }
+      if (boxes[i].low.allFinite() && boxes[i].high.allFinite()) continue;
+      unbounded_.push_back(i);
+      boxes[i] = {Vec3d::Zero(), Vec3d::Zero()};
     }
+    tree_.build(boxes);
   }
 
   void cast(RayTask, std::span<const Ray> rays, std::span<SceneRayHit> hits) override {
@@ -66,16 +116,13 @@ class ExactSceneCast final : public SceneRayCast {
  private:
   struct Part {
     std::uint32_t body, part;
+    std::uint32_t shape;       // of a convex part
+    const TriangleMesh* mesh;  // null: a convex part
   };
 
-  static Shape triangle(const TriangleMesh& mesh, std::uint32_t number) {
-    auto hull = std::make_shared<Hull>();
-    hull->dimension = 2;
-    for (const std::uint32_t v : mesh.triangles[number]) hull->vertices.push_back(mesh.vertices[v]);
-    Shape shape;
-    shape.kind = ShapeKind::hull;
-    shape.hull = std::move(hull);
-    return shape;
+  static std::array<Vec3d, 3> corners(const Part& part) {
+    const auto& [a, b, c] = part.mesh->triangles[part.part];
+    return {part.mesh->vertices[a], part.mesh->vertices[b], part.mesh->vertices[c]};
   }
 
   // A power of two times the direction that passes every point of the shape's box.
@@ -107,34 +154,64 @@ class ExactSceneCast final : public SceneRayCast {
                         !ray.direction.isZero(0) && !std::isnan(ray.t_max);
     best.status = proper ? Status::ok : Status::degenerate;
     if (!proper || !(ray.t_max >= 0)) return best;
-    double best_upper = 0;
-    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
-      const double length = length_past(ray, shapes_[i], poses_[i]);
-      CastOutcome outcome = cast_at(ray, length, i);
-      if (outcome.answer == CastAnswer::miss) continue;
-      if (outcome.answer == CastAnswer::unknown) {
-        best.status = Status::not_converged;
-        continue;
-      }
-      const double lower = outcome.lower * length, upper = outcome.upper * length;
-      if (lower > ray.t_max) continue;
-      if (upper > ray.t_max) {
-        best.status = Status::not_converged;
-        continue;
-      }
-      if (best.hit && lower >= best_upper) continue;
-      best.hit = true;
-      best.body = parts_[i].body;
-      best.part = parts_[i].part;
-      best.t = outcome.toi * length;
-      best_upper = upper;
+    tree_.meet_ray(ray.origin, ray.direction, asked_);
+    asked_.insert(asked_.end(), unbounded_.begin(), unbounded_.end());
+    std::ranges::sort(asked_);
+    asked_.erase(std::ranges::unique(asked_).begin(), asked_.end());
+    double best_upper = 0;  // a bound on the best's t
+    ask_triangles(ray, best, best_upper);
+    for (const std::uint32_t i : asked_) {
+      if (parts_[i].mesh == nullptr) ask_convex(ray, i, best, best_upper);
     }
     return best;
   }
 
+  void ask_triangles(const Ray& ray, SceneRayHit& best, double& best_upper) const {
+    std::optional<oracle::RayPoint> first;
+    for (const std::uint32_t i : asked_) {
+      const Part& part = parts_[i];
+      if (part.mesh == nullptr) continue;
+      auto point = oracle::first_point(ray.origin, ray.direction, corners(part),
+                                       poses_of_bodies_[part.body]);
+      if (!point) continue;
+      if (std::isfinite(ray.t_max) && compare_t(*point, ray.t_max) > 0) continue;
+      if (first && compare_t(*point, *first) >= 0) continue;
+      first = std::move(point);
+      best.body = part.body;
+      best.part = part.part;
+    }
+    if (!first) return;
+    best.hit = true;
+    best.t = oracle::quotient(first->top, first->bottom);
+    best_upper = std::nextafter(best.t, HUGE_VAL);
+  }
+
+  void ask_convex(const Ray& ray, std::uint32_t number, SceneRayHit& best, double& best_upper) {
+    const Part& part = parts_[number];
+    const double length = length_past(ray, shapes_[part.shape], poses_[part.shape]);
+    const CastOutcome outcome = cast_at(ray, length, part.shape);
+    if (outcome.answer == CastAnswer::miss) return;
+    if (outcome.answer == CastAnswer::unknown) {
+      best.status = Status::not_converged;
+      return;
+    }
+    const double lower = outcome.lower * length, upper = outcome.upper * length;
+    if (lower > ray.t_max) return;
+    if (upper > ray.t_max) {
+      best.status = Status::not_converged;
+      return;
+    }
+    if (best.hit && lower >= best_upper) return;
+    best.hit = true;
+    best.body = part.body;
+    best.part = part.part;
+    best.t = outcome.toi * length;
+    best_upper = upper;
+  }
+
   // The point that the ray moves against a part that rests.
   CastOutcome cast_at(const Ray& ray, double length, std::uint32_t part) {
-    const auto point = static_cast<std::uint32_t>(parts_.size());
+    const auto point = static_cast<std::uint32_t>(shapes_.size() - 1);
     poses_[point] = {Mat3d::Identity(), ray.origin};
     const std::array<std::uint32_t, 2> shape_of = {point, part};
     const std::array<Pose, 2> poses = {poses_[point], poses_[part]};
@@ -152,9 +229,13 @@ class ExactSceneCast final : public SceneRayCast {
 
   std::unique_ptr<Cast> cast_;
   std::vector<Part> parts_;
-  std::vector<Shape> shapes_;  // of the parts, and the point's
-  std::vector<Pose> within_;   // of the parts in their bodies
-  std::vector<Pose> poses_;    // of the shapes in the world
+  std::vector<Pose> poses_of_bodies_;
+  std::vector<Shape> shapes_;             // of the convex parts, and the point's
+  std::vector<Pose> within_;              // of the convex parts in their bodies
+  std::vector<Pose> poses_;               // of the shapes in the world
+  oracle::BoxTree tree_;                  // over the boxes of the parts
+  std::vector<std::uint32_t> unbounded_;  // parts without one
+  std::vector<std::uint32_t> asked_;      // of the ray at hand, in the parts' order
 };
 
 }  // namespace

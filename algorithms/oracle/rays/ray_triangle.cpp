@@ -33,6 +33,36 @@ IntegerVector on_grid(const Vec3d& v, int exponent) {
           dyadic(v[2]).over_power(exponent)};
 }
 
+// A vector whose components are sums of dyadic numbers, exactly.
+using Terms = std::array<std::array<Dyadic, 4>, 3>;
+
+Terms placed(const Vec3d& v, const Pose& pose) {
+  Terms terms;
+  for (int row = 0; row < 3; ++row) {
+    for (int k = 0; k < 3; ++k) {
+      const Dyadic a = dyadic(pose.rotation(row, k)), b = dyadic(v[k]);
+      if (a.mantissa.is_zero() || b.mantissa.is_zero()) continue;
+      terms[row][k] = {a.mantissa * b.mantissa, a.exponent + b.exponent};
+    }
+    terms[row][3] = dyadic(pose.translation[row]);
+  }
+  return terms;
+}
+int least_exponent(const Terms& terms) {
+  int least = Dyadic::of_zero;
+  for (const auto& row : terms) {
+    for (const Dyadic& term : row) least = std::min(least, term.exponent);
+  }
+  return least;
+}
+IntegerVector on_grid(const Terms& terms, int exponent) {
+  IntegerVector v;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (const Dyadic& term : terms[row]) v[row] += term.over_power(exponent);
+  }
+  return v;
+}
+
 // A number top / bottom with bottom > 0.
 struct Fraction {
   Integer top, bottom;
@@ -131,11 +161,14 @@ double quotient(const Integer& top, const Integer& bottom) {
   return top < 0 ? -value : value;
 }
 
-std::optional<RayPoint> first_point(const Vec3d& origin, const Vec3d& direction,
-                                    const std::array<Vec3d, 3>& triangle) {
-  if (lies_behind(origin, direction, triangle)) return {};
+namespace {
+
+// The corners are vectors or their terms.
+template <class Corner>
+std::optional<RayPoint> first_point_of(const Vec3d& origin, const Vec3d& direction,
+                                       const std::array<Corner, 3>& triangle) {
   int exponent = least_exponent(origin);
-  for (const Vec3d& corner : triangle) exponent = std::min(exponent, least_exponent(corner));
+  for (const Corner& corner : triangle) exponent = std::min(exponent, least_exponent(corner));
   const int of_direction = least_exponent(direction);
   Seen seen;
   const IntegerVector from = on_grid(origin, exponent);
@@ -179,6 +212,21 @@ std::optional<RayPoint> first_point(const Vec3d& origin, const Vec3d& direction,
     point.bottom <<= -power;
   }
   return point;
+}
+
+}  // namespace
+
+std::optional<RayPoint> first_point(const Vec3d& origin, const Vec3d& direction,
+                                    const std::array<Vec3d, 3>& triangle) {
+  if (lies_behind(origin, direction, triangle)) return {};
+  return first_point_of(origin, direction, triangle);
+}
+
+std::optional<RayPoint> first_point(const Vec3d& origin, const Vec3d& direction,
+                                    const std::array<Vec3d, 3>& triangle, const Pose& pose) {
+  return first_point_of<Terms>(
+      origin, direction,
+      {placed(triangle[0], pose), placed(triangle[1], pose), placed(triangle[2], pose)});
 }
 
 int compare_t(const RayPoint& first, const RayPoint& second) {

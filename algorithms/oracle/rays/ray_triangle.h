@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "algorithms/core/pose.h"
 #include "algorithms/core/vec.h"
 #include "algorithms/oracle/numbers/integer.h"
 
@@ -19,6 +20,10 @@ struct RayPoint {
 // a point. Every number is finite and taken literally; the direction is not zero.
 std::optional<RayPoint> first_point(const Vec3d& origin, const Vec3d& direction,
                                     const std::array<Vec3d, 3>& triangle);
+
+// The same for a triangle whose vertices are in the coordinates of a body with this pose.
+std::optional<RayPoint> first_point(const Vec3d& origin, const Vec3d& direction,
+                                    const std::array<Vec3d, 3>& triangle, const Pose& pose);
 
 // The sign of the first point's t less the second's, or less x.
 int compare_t(const RayPoint& first, const RayPoint& second);

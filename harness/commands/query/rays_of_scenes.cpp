@@ -32,7 +32,12 @@ std::vector<SceneBody> bodies_at(const scene::Scene& scene, int frame, const std
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     // A body that is not present has the empty box, and no parts.
     if (i >= player.boxes().size() || player.boxes()[i].is_empty()) continue;
-    bodies[i].body.parts.push_back({.shape = scene.shapes[scene.bodies[i].shape], .pose = {}});
+    const std::uint32_t shape = scene.bodies[i].shape;
+    if (const ConcaveBody* concave = scene.concave_of(shape)) {
+      bodies[i].body = *concave;
+    } else {
+      bodies[i].body.parts.push_back({.shape = scene.shapes[shape], .pose = {}});
+    }
     bodies[i].pose = player.poses()[i];
   }
   return bodies;
@@ -61,12 +66,18 @@ SceneCast ask_at_scene(const SceneRayCastEntry& entry, const std::vector<SceneBo
   return {&entry, std::move(solved.answers)};
 }
 
-void write_scene_row(files::CsvWriter& csv, std::size_t ray, const SceneCast& cast) {
+void write_scene_row(files::CsvWriter& csv, const std::vector<SceneBody>& bodies, std::size_t ray,
+                     const SceneCast& cast) {
   const SceneRayHit& hit = cast.hits[ray];
   csv.field(ray).field(cast.entry->info.name).field(to_string(Precision::float64));
   csv.field(hit.hit ? 1 : 0).field(hit.t);
-  // Bodies of scenes are convex: there are no triangles to name.
-  csv.field("").field("").field("").field(to_string(hit.status));
+  // A mesh's part is its triangle; where in it the hit lies is not told.
+  if (hit.body != SceneRayHit::none && bodies[hit.body].body.mesh) {
+    csv.field(static_cast<std::int64_t>(hit.part));
+  } else {
+    csv.field("");
+  }
+  csv.field("").field("").field(to_string(hit.status));
   for (const std::uint32_t number : {hit.body, hit.part}) {
     if (number == SceneRayHit::none) {
       csv.field("");
@@ -101,7 +112,7 @@ void cast_rays_at_scene(const RaysOptions& options) {
   files::CsvWriter csv(options.out, {"ray", "algorithm", "scalar", "hit", "t", "triangle", "u", "v",
                                      "status", "body", "part", "normal_x", "normal_y", "normal_z"});
   for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-    for (const SceneCast& cast : casts) write_scene_row(csv, ray, cast);
+    for (const SceneCast& cast : casts) write_scene_row(csv, bodies, ray, cast);
   }
   csv.close();
   std::vector<RaysSummary> summaries;

@@ -204,6 +204,61 @@ TEST(SceneRayCasts, AtWholeScenesAreAsTheOracleSays) {
   EXPECT_GT(seen.size(), 5u);
 }
 
+// Meshes under any pose leave nothing unknown.
+TEST(SceneRayCasts, AtPlacedMeshesTheOracleAlwaysKnows) {
+  reference::Random random(11);
+  std::vector<SceneBody> bodies(3);
+  for (SceneBody& body : bodies) {
+    body.body.mesh = std::make_shared<TriangleMesh>(
+        families::ellipsoid_mesh(Vec3d::Constant(0.5) + random.vector(1).cwiseAbs(), 12, 8));
+    body.pose = pose_of(random);
+  }
+  SceneOutcomes outcomes;
+  expect_as_exact(bodies, rays_at(bodies, drawn(400, 60), random), outcomes);
+  EXPECT_EQ(outcomes.unknown, 0);
+  EXPECT_GT(outcomes.hits, 150 / one_in);
+  EXPECT_GT(outcomes.misses, 20 / one_in);
+}
+
+// Where a pose rounds nothing, rays at a placed mesh are those at the mesh itself, to the last bit: also
+// rays through its vertices and along its edges.
+TEST(SceneRayCasts, AtAMeshUnderAPoseThatRoundsNothingAreThoseAtTheMesh) {
+  SceneBody body;
+  body.body.mesh = std::make_shared<TriangleMesh>(families::ellipsoid_mesh({1, 2, 1}, 8, 6));
+  const TriangleMesh& mesh = *body.body.mesh;
+  body.pose.rotation << 0, -1, 0, 0, 0, 1, -1, 0, 0;
+  body.pose.translation = {0, 0, 0};
+  std::vector<Ray> rays, local;
+  const auto add = [&](const Vec3d& origin, const Vec3d& direction) {
+    local.push_back({origin, direction});
+    rays.push_back({body.pose.rotation * origin, body.pose.rotation * direction});
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3d& v = mesh.vertices[a];
+    add(2 * v, -v);
+    add(v, mesh.vertices[b] - v);
+    add(2 * v + Vec3d::UnitX(), Vec3d::UnitY());
+    add({0, 0, 4}, 0.5 * (mesh.vertices[b] + mesh.vertices[c]) - Vec3d(0, 0, 4));
+  }
+  const auto hits = cast_by("exact", RayTask::closest, {body}, rays);
+  const auto cast = find_ray_cast("exact")->make({});
+  cast->bind(mesh);
+  std::vector<RayHit> truths(local.size());
+  cast->cast(RayTask::closest, local, truths);
+  int found = 0, missed = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    SCOPED_TRACE("ray " + std::to_string(i));
+    ASSERT_EQ(hits[i].status, Status::ok);
+    ASSERT_EQ(hits[i].hit, truths[i].hit);
+    ++(hits[i].hit ? found : missed);
+    if (!hits[i].hit) continue;
+    EXPECT_EQ(hits[i].t, truths[i].t);
+    EXPECT_EQ(hits[i].part, truths[i].triangle);
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(missed, 20);
+}
+
 TEST(SceneRayCasts, SayWhatRaysAreNoneAndMissWhatIsEmpty) {
   for (const SceneRayCastEntry& entry : scene_ray_casts()) {
     const auto cast = entry.make();

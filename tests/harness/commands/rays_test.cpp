@@ -140,5 +140,30 @@ TEST(RaysCommand, OneRowForEachRayAtAScene) {
   }
 }
 
+// A mesh collides as its triangles, not as its hull: a ray through the hole of a torus meets nothing.
+TEST(RaysCommand, AtAMeshOfASceneNameItsTriangle) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.toml",
+                                  "[[body]]\nshape = {type = \"torus\", tube_radius = 0.25, "
+                                  "around = 16}\ntranslation = [0, 0, 0]\n");
+  const auto rays = folder.write("rays.csv", header + "0,0,9,0,0,-1,inf\n1,0.01,9,0,0,-1,inf\n");
+  const auto out = folder.path() / "out.csv";
+  const Ran ran = run_program("rays " + scene.string() + " --rays " + rays.string() +
+                              " --cast all --task closest --out " + out.string());
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  std::vector<std::string> columns = columns_of_rays;
+  for (const char* name : {"body", "part", "normal_x", "normal_y", "normal_z"}) {
+    columns.emplace_back(name);
+  }
+  const auto rows = read_rows(out, columns);
+  ASSERT_EQ(rows.size(), 4u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row[8], "ok");
+    EXPECT_EQ(row[3], row[0]);
+    EXPECT_EQ(row[5], row[10]);
+    EXPECT_EQ(row[5].empty(), row[0] == "0");
+  }
+}
+
 }  // namespace
 }  // namespace touchstone
