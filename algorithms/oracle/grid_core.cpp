@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "algorithms/oracle/numbers/dyadic.h"
+#include "algorithms/oracle/numbers/square_root.h"
 
 namespace touchstone::oracle {
 namespace {
@@ -34,7 +35,7 @@ Vec3l furthest(Solid::Core core, const Vec3l& extents, const Vec3l& direction) {
 // Floor and ceiling of sqrt(square) * 2^shift.
 SupportBounds root_bounds(const Integer& square, int shift) {
   const Integer scaled = square << (2 * shift);
-  const Integer root = sqrt(scaled);
+  const Integer root = root_below(scaled);
   return {root, root * root == scaled ? root : root + 1};
 }
 

@@ -2,7 +2,8 @@
 #include "algorithms/oracle/cast/linear_search.h"
 
 #include <algorithm>
-#include <boost/multiprecision/integer.hpp>
+
+#include "algorithms/oracle/numbers/square_root.h"
 
 namespace touchstone::oracle {
 
@@ -39,7 +40,7 @@ bool LinearSearch::is_free(const Integer& steps) const {
 Integer LinearSearch::steps() const {
   const IntegerVector& z = nearest_.numerator;
   const Integer square = dot(z, z);
-  const Integer root = boost::multiprecision::sqrt(square) + 1;
+  const Integer root = root_below(square) + 1;
   const Integer gap = square - radius_ * nearest_.denominator * root;
   return gap / (dot(z, cores_.velocity()) * nearest_.denominator) - 1;
 }

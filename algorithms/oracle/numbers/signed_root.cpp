@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "algorithms/oracle/numbers/dyadic.h"
+#include "algorithms/oracle/numbers/square_root.h"
 
 namespace touchstone::oracle {
 namespace {
@@ -54,7 +55,7 @@ DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_
     if (value.sign != 0) {
       Integer square, rest;
       divide_qr(Integer(value.numerator << (2 * shift)), value.denominator, square, rest);
-      whole = sqrt(square);
+      whole = root_below(square);
       exact = rest.is_zero() && whole * whole == square;
     }
     // sign * root is between `whole` and the next integer away from zero.
