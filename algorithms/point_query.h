@@ -55,7 +55,8 @@ class PointQuery {
 struct PointQueryEntry {
   AlgorithmInfo info;
   std::vector<PointTask> tasks;
-  // Null if it is not built. All is in doubles.
+  Precision scalar = Precision::float64;  // what it calculates in
+  // Null if it is not built.
   std::function<std::unique_ptr<PointQuery>()> make;
 };
 

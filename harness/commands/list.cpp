@@ -58,7 +58,7 @@ std::vector<Listed> all_algorithms() {
   }
   for (const PointQueryEntry& entry : point_queries()) {
     all.push_back(
-        {&entry.info, "point", joined(entry.tasks), std::string(to_string(Precision::float64))});
+        {&entry.info, "point", joined(entry.tasks), std::string(to_string(entry.scalar))});
   }
   for (const MidPhaseEntry& entry : mid_phases()) {
     all.push_back({&entry.info, "mid", "pairs", std::string(to_string(Precision::float32))});

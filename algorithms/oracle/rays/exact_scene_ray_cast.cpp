@@ -244,11 +244,15 @@ class ExactSceneCast final : public SceneRayCast {
 namespace touchstone::entries {
 
 std::vector<SceneRayCastEntry> oracle_exact_scene_ray_cast() {
-  return {{.info = {.name = "exact",
-                    .citation = "Touchstone's oracle: a point that moves, in integers",
-                    .origin = Origin::oracle},
-           .tasks = {RayTask::closest, RayTask::any},
-           .make = [] { return std::make_unique<ExactSceneCast>(); }}};
+  return {
+      {.info =
+           {.name = "exact",
+            .citation =
+                "Touchstone's oracle: placed triangles, and a point that moves at convex parts, in "
+                "integers",
+            .origin = Origin::oracle},
+       .tasks = {RayTask::closest, RayTask::any},
+       .make = [] { return std::make_unique<ExactSceneCast>(); }}};
 }
 
 }  // namespace touchstone::entries

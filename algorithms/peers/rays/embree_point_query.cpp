@@ -128,6 +128,7 @@ std::vector<PointQueryEntry> peers_embree_point_query() {
                     .origin = Origin::peer,
                     .known_defect = "rounds in floats"},
            .tasks = {PointTask::closest},
+           .scalar = Precision::float32,
            .make = make_embree_points}};
 }
 

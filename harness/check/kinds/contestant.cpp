@@ -36,7 +36,7 @@ bool offers(const RayCastEntry* entry, Precision scalar, std::uint8_t task) {
          touchstone::offers(*entry, scalar);
 }
 bool offers(const PointQueryEntry* entry, Precision scalar, std::uint8_t task) {
-  return scalar == Precision::float64 &&
+  return scalar == entry->scalar &&
          std::ranges::find(entry->tasks, static_cast<PointTask>(task)) != entry->tasks.end();
 }
 bool offers(const CastEntry* entry, Precision scalar, std::uint8_t task) {

@@ -63,7 +63,7 @@ class PointBlock final : public CaseBlock {
         [&] { return solver_of(entry, task); },
         [&](std::size_t i, const PointAnswer& answer) {
           const double scale = form == CaseForm::scaled ? points_.numbers(i).scale : 1;
-          grades[i] = grade(task, i, answer, scale);
+          grades[i] = grade(entry, task, i, answer, scale);
         });
     return grades;
   }
@@ -101,7 +101,8 @@ class PointBlock final : public CaseBlock {
     return known[i];
   }
 
-  GradedCase grade(PointTask task, std::size_t i, const PointAnswer& answer, double scale) {
+  GradedCase grade(const PointQueryEntry& entry, PointTask task, std::size_t i,
+                   const PointAnswer& answer, double scale) {
     const PointAnswer& exact = truth(i, task);
     const bool is_side = task == PointTask::side;
     const bool is_contact = is_side ? exact.side != PointSide::outside : exact.distance == 0;
@@ -116,7 +117,9 @@ class PointBlock final : public CaseBlock {
     if (std::isnan(exact.distance) && std::isnan(answer.distance)) return with(CaseGrade::right);
     double reach = points_[i].norm();
     for (const Vec3d& v : points_.mesh(i).vertices) reach = std::max(reach, v.norm());
-    const bool is_near = std::abs(answer.distance / scale - exact.distance) <= 1e-14 * reach;
+    // Some roundings of the coordinates.
+    const double tolerance = entry.scalar == Precision::float64 ? 1e-14 : 1e-6;
+    const bool is_near = std::abs(answer.distance / scale - exact.distance) <= tolerance * reach;
     return with(is_near ? CaseGrade::right : CaseGrade::wrong);
   }
 
