@@ -16,6 +16,11 @@ void register_broad_benchmarks();
 // oracle/{verdict,distance,depth}/SHAPES/REGIME: the exact answers, one query per iteration.
 void register_oracle_benchmarks();
 
+// meshes/{mid,concave,ray,point}/ALGORITHM/MESH/build: one construction for a mesh per iteration; with `mid`
+// also `refit`, to boxes of moved vertices. `per_triangle` is its time, `bytes` the memory of a triangle that the
+// C library gave; what a library takes from elsewhere is not in it.
+void register_mesh_benchmarks();
+
 // kernels/...: support functions, sorting and tests of boxes.
 void register_kernel_benchmarks();
 

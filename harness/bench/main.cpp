@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   touchstone::bench::register_broad_benchmarks();
   touchstone::bench::register_narrow_benchmarks();
   touchstone::bench::register_oracle_benchmarks();
+  touchstone::bench::register_mesh_benchmarks();
   touchstone::bench::register_kernel_benchmarks();
   touchstone::bench::register_harness_overhead_benchmarks();
   benchmark::RunSpecifiedBenchmarks();

@@ -48,7 +48,7 @@ void add_listed(const std::string& filter, std::set<std::string>& names) {
 
 std::set<std::string> listed() {
   std::set<std::string> names;
-  add_listed("^(broad|kernels|oracle)/", names);
+  add_listed("^(broad|kernels|meshes|oracle)/", names);
   for (const NarrowPhaseEntry& entry : narrow_phases())
     add_listed("^narrow/" + std::string(entry.info.name) + "/", names);
   return names;
@@ -117,9 +117,16 @@ TEST(Bench, ListsEveryRegisteredAlgorithm) {
       }
     }
   }
+  for (const MidPhaseEntry& entry : mid_phases()) {
+    for (const char* rest : {"/torus-2000/build", "/trefoil-10000/refit"}) {
+      EXPECT_TRUE(names.contains("meshes/mid/" + entry.info.name + rest)) << entry.info.name;
+    }
+  }
   for (const char* name :
-       {"kernels/support/float/hull-128/coherent", "kernels/support/double/ellipsoid/random",
-        "kernels/radix-sort/100000", "kernels/insertion-sort/1000", "kernels/box-scan/avx2/1000",
+       {"meshes/concave/fused/torus-2000/build", "meshes/ray/wide-bvh/trefoil-100000/build",
+        "meshes/point/wide-bvh/trefoil-10000/build", "kernels/support/float/hull-128/coherent",
+        "kernels/support/double/ellipsoid/random", "kernels/radix-sort/100000",
+        "kernels/insertion-sort/1000", "kernels/box-scan/avx2/1000",
         "kernels/box-sweep/baseline/10000", "kernels/box-axes/float/gap-0.1",
         "oracle/verdict/box-box/1e-9", "oracle/depth/hull-128/-1e-3"}) {
     EXPECT_TRUE(names.contains(name)) << name;
@@ -133,7 +140,8 @@ TEST(Bench, RunsWhatTheFilterTakesAndWritesJson) {
       "'^(broad/(naive|sweep-and-prune)/(uniform|city)/1000/|"
       "narrow/(gjk|sat|closed-form)/double/(box-box|sphere-box|capsule-capsule)/|"
       "kernels/(support/float/(box|hull-32)|radix-sort/1000$|insertion-sort/1000$|"
-      "box-(scan|sweep)/baseline/1000|box-axes)|oracle/verdict/box-box/)'";
+      "box-(scan|sweep)/baseline/1000|box-axes)|meshes/mid/[a-z-]+/torus-2000/|oracle/verdict/"
+      "box-box/)'";
   bench("--benchmark_min_time=1e-6 --benchmark_filter=" + filter +
         " --benchmark_out_format=json --benchmark_out=" + out.string());
   std::ifstream file(out);
