@@ -13,8 +13,9 @@
 //          6. Search the R-tree for each escaped box, and test escaped boxes against each other.
 // Departs: each box grows by an amount that follows its own motion. Counts, not times, decide how
 //          many frames a list lasts, so that making and testing it cost least together. The order
-//          of the R-tree is kept until its blocks have grown by a quarter. Escaped boxes are searched one by one while they are few. If motion is too fast for a list, the
-//          packed R-tree searches each frame.
+//          of the R-tree is kept until its blocks have grown by a quarter. Escaped boxes are searched
+//          one by one while they are few. If motion is too fast for a list, the packed R-tree
+//          searches each frame.
 // Fails:   motion of a body's size a frame: it is then the packed R-tree, at a slightly higher
 //          cost.
 // Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 80
