@@ -1,5 +1,6 @@
 // Pairs of triangles by a descent whose leaves are tested eight triangles at once.
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
@@ -23,13 +24,11 @@ class FusedPairs final : public MeshPairs {
                   bodies_[b.body],
                   a.pose,
                   b.pose,
-                  {},
+                  common_frame(a.pose, bodies_[a.body].reach, b.pose, bodies_[b.body].reach),
                   take};
-    search.frame = common_frame(a.pose, search.body_a.reach, b.pose, search.body_b.reach);
-    const DescentFrame frame =
-        descent_frame(search.frame, search.body_a.reach, search.body_b.reach);
+    const DescentFrames frames(search.frame, search.body_a.reach, search.body_b.reach);
     descent_.run(
-        search.a.tree, search.b.tree, frame,
+        search.a.tree, search.b.tree, frames.all(),
         [](void* context, std::uint32_t leaf_a, std::uint32_t leaf_b) {
           return static_cast<Search*>(context)->visit(leaf_a, leaf_b);
         },
@@ -43,12 +42,16 @@ class FusedPairs final : public MeshPairs {
     const Pose &pose_a, &pose_b;
     CommonFrame frame;
     const TakePartPairs& take;
+    // The leaf of b that was last seen, and its block in the frame.
+    std::uint32_t seen_b = std::numeric_limits<std::uint32_t>::max();
+    TriangleBlock moved_b = {};
 
-    bool visit(std::uint32_t leaf_a, std::uint32_t leaf_b) const {
+    bool visit(std::uint32_t leaf_a, std::uint32_t leaf_b) {
       const auto parts_a = a.tree.leaf(leaf_a), parts_b = b.tree.leaf(leaf_b);
-      TriangleBlock moved_a, moved_b;
+      TriangleBlock moved_a;
       if (!frame.is_of_a) move(a.blocks[leaf_a], frame.a, moved_a);
-      move(b.blocks[leaf_b], frame.b, moved_b);
+      if (leaf_b != seen_b) move(b.blocks[leaf_b], frame.b, moved_b);
+      seen_b = leaf_b;
       BlockSigns signs;
       if (!compare(frame.is_of_a ? a.blocks[leaf_a] : moved_a,
                    static_cast<unsigned>(parts_a.size()), moved_b,
