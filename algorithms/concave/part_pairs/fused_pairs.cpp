@@ -42,20 +42,30 @@ class FusedPairs final : public MeshPairs {
     const Pose &pose_a, &pose_b;
     CommonFrame frame;
     const TakePartPairs& take;
-    // The leaf of b that was last seen, and its block in the frame.
+    // The leaf of b that was last seen, its block in the frame, and the block's extent.
     std::uint32_t seen_b = std::numeric_limits<std::uint32_t>::max();
     TriangleBlock moved_b = {};
+    BlockExtent extent_b = {};
 
     bool visit(std::uint32_t leaf_a, std::uint32_t leaf_b) {
       const auto parts_a = a.tree.leaf(leaf_a), parts_b = b.tree.leaf(leaf_b);
+      if (leaf_b != seen_b) see(leaf_b);
+      unsigned lanes_a = (1u << parts_a.size()) - 1, lanes_b = (1u << parts_b.size()) - 1;
       TriangleBlock moved_a;
-      if (!frame.is_of_a) move(a.blocks[leaf_a], frame.a, moved_a);
-      if (leaf_b != seen_b) move(b.blocks[leaf_b], frame.b, moved_b);
-      seen_b = leaf_b;
+      if (frame.is_of_a) {
+        // A coordinate of b is rounded to an eighth of `error`. Two projections are off by twice that of
+        // their coordinates, and by 6 u of these by rounding.
+        const double slack = 6 * frame.error + 0x1p-48 * body_a.reach;
+        lanes_b &= reaching(moved_b, a.extents[leaf_a], slack);
+        if (lanes_b == 0) return true;
+        lanes_a &= reaching(a.blocks[leaf_a], extent_b, slack);
+        if (lanes_a == 0) return true;
+      } else {
+        move(a.blocks[leaf_a], frame.a, moved_a);
+      }
       BlockSigns signs;
-      if (!compare(frame.is_of_a ? a.blocks[leaf_a] : moved_a,
-                   static_cast<unsigned>(parts_a.size()), moved_b,
-                   static_cast<unsigned>(parts_b.size()), frame.error, signs)) {
+      if (!compare(frame.is_of_a ? a.blocks[leaf_a] : moved_a, lanes_a, moved_b, lanes_b,
+                   frame.error, signs)) {
         return true;
       }
       std::array<IndexPair, TriangleBlock::size * TriangleBlock::size> found;
@@ -72,6 +82,14 @@ class FusedPairs final : public MeshPairs {
         }
       }
       return count == 0 || take({found.data(), count});
+    }
+
+    void see(std::uint32_t leaf_b) {
+      seen_b = leaf_b;
+      move(b.blocks[leaf_b], frame.b, moved_b);
+      // Any way serves: what is rounded here moves it a little.
+      const Vec3d way = frame.b.rotation * b.extents[leaf_b].way;
+      extent_b = extent_along(moved_b, way.stableNormalized());
     }
   };
 
