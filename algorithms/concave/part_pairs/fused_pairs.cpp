@@ -42,10 +42,11 @@ class FusedPairs final : public MeshPairs {
     const Pose &pose_a, &pose_b;
     CommonFrame frame;
     const TakePartPairs& take;
-    // The leaf of b that was last seen, its block in the frame, and the block's extent.
+    // The leaf of b that was last seen, its block in the frame, and the block's extent, if it was needed.
     std::uint32_t seen_b = std::numeric_limits<std::uint32_t>::max();
     TriangleBlock moved_b = {};
     BlockExtent extent_b = {};
+    bool is_measured = false;  // the extent is that of the block
 
     bool visit(std::uint32_t leaf_a, std::uint32_t leaf_b) {
       const auto parts_a = a.tree.leaf(leaf_a), parts_b = b.tree.leaf(leaf_b);
@@ -58,6 +59,7 @@ class FusedPairs final : public MeshPairs {
         const double slack = 6 * frame.error + 0x1p-48 * body_a.reach;
         lanes_b &= reaching(moved_b, a.extents[leaf_a], slack);
         if (lanes_b == 0) return true;
+        measure_seen();
         lanes_a &= reaching(a.blocks[leaf_a], extent_b, slack);
         if (lanes_a == 0) return true;
       } else {
@@ -86,10 +88,18 @@ class FusedPairs final : public MeshPairs {
 
     void see(std::uint32_t leaf_b) {
       seen_b = leaf_b;
+      is_measured = false;
       move(b.blocks[leaf_b], frame.b, moved_b);
-      // Any way serves: what is rounded here moves it a little.
-      const Vec3d way = frame.b.rotation * b.extents[leaf_b].way;
-      extent_b = extent_along(moved_b, way.stableNormalized());
+    }
+
+    void measure_seen() {
+      if (is_measured) return;
+      is_measured = true;
+      // Any way serves whose coordinates' magnitudes sum up to 2 at most: what is rounded moves it a
+      // little.
+      const Vec3d way = frame.b.rotation * b.extents[seen_b].way;
+      const double sum = way.cwiseAbs().sum();
+      extent_b = extent_along(moved_b, sum <= 1.9 ? way : Vec3d(way / sum));
     }
   };
 

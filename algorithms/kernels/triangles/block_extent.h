@@ -8,7 +8,7 @@
 
 namespace touchstone {
 
-// A way of unit length at most, and the ends of a block along it (metres); NaN if a corner is not finite.
+// A way, whose length is about 1, and the ends of a block along it (metres); NaN if a corner is not finite.
 struct BlockExtent {
   Vec3d way;
   double low, high;
