@@ -5,7 +5,8 @@
 //          2. Descend both trees from their roots (wide_descent): a node's eight boxes of the second
 //             body are put into the frame of the first once, and compared with each of its eight.
 //          3. Compare the boxes of two leaves likewise, in double.
-// Departs: boxes are compared along the three axes of the common frame, without the other twelve.
+// Departs: boxes are compared along the six axes of both bodies' frames, without the other nine; those of
+//          parts along the three of the common frame.
 // Fails:   boxes of long thin parts that are turned are much larger than the parts.
 // Cost:    O(n log n) build, O(n) refit, 38 bytes a part.
 #include <array>
@@ -35,9 +36,9 @@ class WideBvhMidPhase final : public MidPhaseOfBodies<WideParts> {
     Search search{kept(a), kept(b), {}, 0, take};
     search.frame = common_frame(pose_a, search.a.reach, pose_b, search.b.reach);
     search.slack = box_slack(search.frame, search.a.reach, search.b.reach);
-    const DescentFrame frame = descent_frame(search.frame, search.a.reach, search.b.reach);
+    const DescentFrames frames(search.frame, search.a.reach, search.b.reach);
     return descent_.run(
-        search.a.tree, search.b.tree, frame,
+        search.a.tree, search.b.tree, frames.all(),
         [](void* context, std::uint32_t leaf_a, std::uint32_t leaf_b) {
           return static_cast<Search*>(context)->visit(leaf_a, leaf_b);
         },

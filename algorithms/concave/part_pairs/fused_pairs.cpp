@@ -1,5 +1,6 @@
 // Pairs of triangles by a descent whose leaves are tested eight triangles at once.
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
@@ -23,13 +24,11 @@ class FusedPairs final : public MeshPairs {
                   bodies_[b.body],
                   a.pose,
                   b.pose,
-                  {},
+                  common_frame(a.pose, bodies_[a.body].reach, b.pose, bodies_[b.body].reach),
                   take};
-    search.frame = common_frame(a.pose, search.body_a.reach, b.pose, search.body_b.reach);
-    const DescentFrame frame =
-        descent_frame(search.frame, search.body_a.reach, search.body_b.reach);
+    const DescentFrames frames(search.frame, search.body_a.reach, search.body_b.reach);
     descent_.run(
-        search.a.tree, search.b.tree, frame,
+        search.a.tree, search.b.tree, frames.all(),
         [](void* context, std::uint32_t leaf_a, std::uint32_t leaf_b) {
           return static_cast<Search*>(context)->visit(leaf_a, leaf_b);
         },
@@ -43,16 +42,32 @@ class FusedPairs final : public MeshPairs {
     const Pose &pose_a, &pose_b;
     CommonFrame frame;
     const TakePartPairs& take;
+    // The leaf of b that was last seen, its block in the frame, and the block's extent, if it was needed.
+    std::uint32_t seen_b = std::numeric_limits<std::uint32_t>::max();
+    TriangleBlock moved_b = {};
+    BlockExtent extent_b = {};
+    bool is_measured = false;  // the extent is that of the block
 
-    bool visit(std::uint32_t leaf_a, std::uint32_t leaf_b) const {
+    bool visit(std::uint32_t leaf_a, std::uint32_t leaf_b) {
       const auto parts_a = a.tree.leaf(leaf_a), parts_b = b.tree.leaf(leaf_b);
-      TriangleBlock moved_a, moved_b;
-      if (!frame.is_of_a) move(a.blocks[leaf_a], frame.a, moved_a);
-      move(b.blocks[leaf_b], frame.b, moved_b);
+      if (leaf_b != seen_b) see(leaf_b);
+      unsigned lanes_a = (1u << parts_a.size()) - 1, lanes_b = (1u << parts_b.size()) - 1;
+      TriangleBlock moved_a;
+      if (frame.is_of_a) {
+        // A coordinate of b is rounded to an eighth of `error`. Two projections are off by twice that of
+        // their coordinates, and by 6 u of these by rounding.
+        const double slack = 6 * frame.error + 0x1p-48 * body_a.reach;
+        lanes_b &= reaching(moved_b, a.extents[leaf_a], slack);
+        if (lanes_b == 0) return true;
+        measure_seen();
+        lanes_a &= reaching(a.blocks[leaf_a], extent_b, slack);
+        if (lanes_a == 0) return true;
+      } else {
+        move(a.blocks[leaf_a], frame.a, moved_a);
+      }
       BlockSigns signs;
-      if (!compare(frame.is_of_a ? a.blocks[leaf_a] : moved_a,
-                   static_cast<unsigned>(parts_a.size()), moved_b,
-                   static_cast<unsigned>(parts_b.size()), frame.error, signs)) {
+      if (!compare(frame.is_of_a ? a.blocks[leaf_a] : moved_a, lanes_a, moved_b, lanes_b,
+                   frame.error, signs)) {
         return true;
       }
       std::array<IndexPair, TriangleBlock::size * TriangleBlock::size> found;
@@ -69,6 +84,22 @@ class FusedPairs final : public MeshPairs {
         }
       }
       return count == 0 || take({found.data(), count});
+    }
+
+    void see(std::uint32_t leaf_b) {
+      seen_b = leaf_b;
+      is_measured = false;
+      move(b.blocks[leaf_b], frame.b, moved_b);
+    }
+
+    void measure_seen() {
+      if (is_measured) return;
+      is_measured = true;
+      // Any way serves whose coordinates' magnitudes sum up to 2 at most: what is rounded moves it a
+      // little.
+      const Vec3d way = frame.b.rotation * b.extents[seen_b].way;
+      const double sum = way.cwiseAbs().sum();
+      extent_b = extent_along(moved_b, sum <= 1.9 ? way : Vec3d(way / sum));
     }
   };
 

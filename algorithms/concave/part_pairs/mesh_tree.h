@@ -5,6 +5,7 @@
 
 #include "algorithms/concave/part_pairs/bound_body.h"
 #include "algorithms/kernels/bvh/wide_bvh.h"
+#include "algorithms/kernels/triangles/block_extent.h"
 #include "algorithms/kernels/triangles/triangle_block.h"
 
 namespace touchstone {
@@ -13,6 +14,7 @@ namespace touchstone {
 struct MeshTree {
   WideBvh tree;
   std::vector<TriangleBlock> blocks;  // one a leaf
+  std::vector<BlockExtent> extents;   // of the blocks, along their normals
 };
 using MeshTrees = std::vector<MeshTree>;  // one a body
 
@@ -21,6 +23,8 @@ inline MeshTree mesh_tree(const BoundBody& body) {
   if (body.mesh() == nullptr) return made;
   made.tree = build_wide_bvh(body.boxes);
   made.blocks = triangle_blocks(*body.mesh(), made.tree.order);
+  made.extents.reserve(made.blocks.size());
+  for (const TriangleBlock& block : made.blocks) made.extents.push_back(extent_along_normal(block));
   return made;
 }
 

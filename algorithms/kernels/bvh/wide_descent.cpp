@@ -4,6 +4,10 @@
 // every intermediate result below is at most 2 m. A centre, a half extent and the numbers of the
 // view are off by v of themselves; a map has three products and three sums; then there is a
 // difference and a sum: together less than 32 v m. The slack is twice that.
+//
+// Let b's map be y -> R y + t, and E = R^T R - I. In b's frame its boxes are not turned, and a point x
+// of a is seen at R^T (x - t). If x is b's point y, but for the frame's error, then that is off from y by
+// at most |E| |y| + |R^T| error, which the slack has twice.
 #include "algorithms/kernels/bvh/wide_descent.h"
 
 #include <bit>
@@ -20,12 +24,14 @@
 namespace touchstone {
 namespace {
 
+// Of a pose that is nearly rigid.
+constexpr double greatest_skew = 1e-3;
+
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/wide_descent.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 using SeeBoxes = unsigned (*)(const WideNode&, const BoxView*, float, NodeBoxes&);
 SeeBoxes seeing() { return isa() == Isa::baseline ? baseline::see_node : avx2::see_node; }
-using MeetBoxes = unsigned (*)(const NodeBoxes&, std::size_t, const NodeBoxes&);
 
 BoxView view_of(const Pose& pose, double slack) {
   BoxView view;
@@ -40,6 +46,10 @@ BoxView view_of(const Pose& pose, double slack) {
   return view;
 }
 
+double slack_of(double far, double error) {
+  return 64 * 0x1p-24 * far + 4 * error + std::numeric_limits<float>::min();
+}
+
 double reach_in(const Pose& pose, double reach) {
   return pose.rotation.cwiseAbs().rowwise().sum().maxCoeff() * reach +
          pose.translation.cwiseAbs().maxCoeff();
@@ -49,37 +59,52 @@ double reach_in(const Pose& pose, double reach) {
 
 DescentFrame descent_frame(const CommonFrame& frame, double reach_a, double reach_b) {
   const double far = reach_in(frame.a, reach_a) + reach_in(frame.b, reach_b);
-  const double slack = 64 * 0x1p-24 * far + 4 * frame.error + std::numeric_limits<float>::min();
-  return {view_of(frame.b, slack), view_of(frame.a, 0), !frame.is_of_a};
+  return {.b = view_of(frame.b, slack_of(far, frame.error)),
+          .a = view_of(frame.a, 0),
+          .moves_a = !frame.is_of_a};
+}
+
+DescentFrames::DescentFrames(const CommonFrame& frame, double reach_a, double reach_b) {
+  frames_[0] = descent_frame(frame, reach_a, reach_b);
+  if (!frame.is_of_a) return;
+  const Mat3d& turn = frame.b.rotation;
+  const double skew =
+      (turn.transpose() * turn - Mat3d::Identity()).cwiseAbs().rowwise().sum().maxCoeff();
+  if (!(skew < greatest_skew)) return;
+  Pose back;
+  back.rotation = turn.transpose();
+  back.translation = -(back.rotation * frame.b.translation);
+  const double far = reach_in(back, reach_a) + reach_b;
+  const double slack = slack_of(far, 2 * frame.error) + 2 * skew * reach_b;
+  frames_[1] = {.b = {}, .a = view_of(back, 0), .moves_a = true, .moves_b = false};
+  frames_[1].b.slack = round_up(slack);
+  count_ = 2;
 }
 
 unsigned see_boxes(const WideNode& node, const BoxView* view, float slack, NodeBoxes& seen) {
   return seeing()(node, view, slack, seen);
 }
 
-bool WideDescent::run(const WideBvh& a, const WideBvh& b, const DescentFrame& frame, Visit visit,
-                      void* context) {
+bool WideDescent::run(const WideBvh& a, const WideBvh& b, std::span<const DescentFrame> frames,
+                      Visit visit, void* context) {
   if (a.nodes.empty() || b.nodes.empty()) return true;
-  const bool plain = isa() == Isa::baseline;
-  const SeeBoxes see = seeing();
-  const MeetBoxes meet = plain ? baseline::meeting_boxes : avx2::meeting_boxes;
-  NodeBoxes boxes_a, boxes_b;
+  const auto meet = isa() == Isa::baseline ? baseline::meeting_children : avx2::meeting_children;
+  std::array<std::uint8_t, WideNode::fan> meeting;
   open_.assign(1, {0, 0, 0xff, 0xff});
   while (!open_.empty()) {
     const Open now = open_.back();
     open_.pop_back();
     const WideNode& node_a = a.nodes[now.node_a];
     const WideNode& node_b = b.nodes[now.node_b];
-    const unsigned lanes_b = see(node_b, &frame.b, frame.b.slack, boxes_b) & now.lanes_b;
-    unsigned lanes_a = see(node_a, frame.moves_a ? &frame.a : nullptr, 0, boxes_a) & now.lanes_a;
-    for (; lanes_a != 0; lanes_a &= lanes_a - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(lanes_a));
-      const std::int32_t child_a = node_a.child[i];
-      unsigned hits = meet(boxes_a, i, boxes_b) & lanes_b;
-      for (; hits != 0; hits &= hits - 1) {
-        const int j = std::countr_zero(hits);
-        const std::int32_t child_b = node_b.child[static_cast<std::size_t>(j)];
-        const bool leaf_a = WideNode::is_leaf(child_a), leaf_b = WideNode::is_leaf(child_b);
+    unsigned lanes_b = meet(node_a, now.lanes_a, node_b, now.lanes_b, frames, meeting);
+    for (; lanes_b != 0; lanes_b &= lanes_b - 1) {
+      const auto j = static_cast<std::size_t>(std::countr_zero(lanes_b));
+      const std::int32_t child_b = node_b.child[j];
+      const bool leaf_b = WideNode::is_leaf(child_b);
+      for (unsigned lanes_a = meeting[j]; lanes_a != 0; lanes_a &= lanes_a - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(lanes_a));
+        const std::int32_t child_a = node_a.child[i];
+        const bool leaf_a = WideNode::is_leaf(child_a);
         if (leaf_a && leaf_b) {
           if (!visit(context, WideNode::leaf(child_a), WideNode::leaf(child_b))) return false;
           continue;

@@ -1,11 +1,13 @@
 // The pairs of leaves of two wide trees whose boxes may meet, where both bodies are placed: both
 // trees are descended together. Used by mid-phases and concave phases.
 // Papers: Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996 (the simultaneous descent; of the
-//         fifteen axes only the three of the frame are tested); wide_bvh.h has those of the tree.
+//         fifteen axes the six of the faces are tested); wide_bvh.h has those of the tree.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "algorithms/core/mesh/common_frame.h"
@@ -24,15 +26,28 @@ struct BoxView {
   float slack;
 };
 
-// Two views of a query: b's boxes in the frame, and a's boxes.
+// Two views of a query: b's boxes in a frame, and a's boxes. The slack is that of `b`.
 struct DescentFrame {
-  BoxView b;
+  BoxView b;             // its map is used only if `moves_b`
   BoxView a;             // used only if `moves_a`
   bool moves_a = false;  // the frame is not that of a
+  bool moves_b = true;   // nor that of b
 };
 
 // The reaches are those of common_frame.
 DescentFrame descent_frame(const CommonFrame& frame, double reach_a, double reach_b);
+
+// The frame in which boxes are compared, and that of b where b's pose in the first is nearly rigid.
+class DescentFrames {
+ public:
+  DescentFrames(const CommonFrame& frame, double reach_a, double reach_b);
+
+  std::span<const DescentFrame> all() const { return std::span(frames_).first(count_); }
+
+ private:
+  std::array<DescentFrame, 2> frames_;
+  std::size_t count_ = 1;
+};
 
 // The boxes of a node's children in a frame, a lane a child.
 struct alignas(64) NodeBoxes {
@@ -49,8 +64,9 @@ class WideDescent {
   using Visit = bool (*)(void* context, std::uint32_t leaf_a, std::uint32_t leaf_b);
 
   // Calls `visit` for every pair of leaves but those whose boxes are surely apart along one of the
-  // frame's axes. Returns false if `visit` ended it.
-  bool run(const WideBvh& a, const WideBvh& b, const DescentFrame& frame, Visit visit,
+  // frames' axes; b's leaves that are the same come one after the other where they can. Returns false if
+  // `visit` ended it.
+  bool run(const WideBvh& a, const WideBvh& b, std::span<const DescentFrame> frames, Visit visit,
            void* context);
 
  private:

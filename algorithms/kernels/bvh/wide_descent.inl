@@ -35,19 +35,39 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned see_node(const WideNode& no
   return bits;
 }
 
-// Returns the bits of b's boxes that box i of a may meet. NaN, of boundless boxes, means that they
+// Returns the bits of a's boxes that box j of b may meet. NaN, of boundless boxes, means that they
 // may.
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned meeting_boxes(const NodeBoxes& a,
-                                                                   std::size_t i,
-                                                                   const NodeBoxes& b) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned meeting_boxes(const NodeBoxes& a, const NodeBoxes& b,
+                                                           std::size_t j) {
   using Lanes = Simd<float>;
   unsigned apart = 0;
   for (std::size_t at = 0; at < WideNode::fan; at += Lanes::width) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto gap = Lanes::abs(Lanes::load(&b.centre[k][at]) - Lanes::broadcast(a.centre[k][i]));
-      const auto reach = Lanes::load(&b.half[k][at]) + Lanes::broadcast(a.half[k][i]);
+      const auto gap = Lanes::abs(Lanes::load(&a.centre[k][at]) - Lanes::broadcast(b.centre[k][j]));
+      const auto reach = Lanes::load(&a.half[k][at]) + Lanes::broadcast(b.half[k][j]);
       apart |= Lanes::to_bits(Lanes::less(reach, gap)) << at;
     }
   }
   return ~apart & 0xffu;
+}
+
+// Writes for each child of b the bits of a's children that it may meet, and returns the bits of those of b
+// that may meet any.
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned meeting_children(
+    const WideNode& a, unsigned lanes_a, const WideNode& b, unsigned lanes_b,
+    std::span<const DescentFrame> frames, std::array<std::uint8_t, WideNode::fan>& meeting) {
+  NodeBoxes seen_a, seen_b;
+  meeting.fill(static_cast<std::uint8_t>(lanes_a));
+  for (const DescentFrame& frame : frames) {
+    const unsigned in_a = see_node(a, frame.moves_a ? &frame.a : nullptr, 0, seen_a);
+    lanes_b &= see_node(b, frame.moves_b ? &frame.b : nullptr, frame.b.slack, seen_b);
+    for (unsigned bits = lanes_b; bits != 0; bits &= bits - 1) {
+      const auto j = static_cast<std::size_t>(std::countr_zero(bits));
+      const unsigned left = meeting[j] & in_a & meeting_boxes(seen_a, seen_b, j);
+      meeting[j] = static_cast<std::uint8_t>(left);
+      if (left == 0) lanes_b &= ~(1u << j);
+    }
+    if (lanes_b == 0) return 0;
+  }
+  return lanes_b;
 }

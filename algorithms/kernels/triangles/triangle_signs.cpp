@@ -30,14 +30,14 @@ struct VolumeBound {
 
 }  // namespace
 
-bool compare(const TriangleBlock& a, unsigned count_a, const TriangleBlock& b, unsigned count_b,
+bool compare(const TriangleBlock& a, unsigned lanes_a, const TriangleBlock& b, unsigned lanes_b,
              double error, BlockSigns& signs) {
   switch (isa()) {
-    case Isa::avx512: return avx512::compare_blocks(a, count_a, b, count_b, error, signs);
-    case Isa::avx2: return avx2::compare_blocks(a, count_a, b, count_b, error, signs);
+    case Isa::avx512: return avx512::compare_blocks(a, lanes_a, b, lanes_b, error, signs);
+    case Isa::avx2: return avx2::compare_blocks(a, lanes_a, b, lanes_b, error, signs);
     case Isa::baseline: break;
   }
-  return baseline::compare_blocks(a, count_a, b, count_b, error, signs);
+  return baseline::compare_blocks(a, lanes_a, b, lanes_b, error, signs);
 }
 
 void move(const TriangleBlock& block, const Pose& pose, TriangleBlock& moved) {

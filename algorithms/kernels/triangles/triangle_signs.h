@@ -23,9 +23,9 @@ struct BlockSigns {
   std::array<std::uint8_t, TriangleBlock::size> yes, open;  // they share a point; rounding hides it
 };
 
-// `error` bounds by how much any coordinate of the blocks is off (metres). The first count_a and
-// count_b triangles are compared. Returns true if any bit is set.
-bool compare(const TriangleBlock& a, unsigned count_a, const TriangleBlock& b, unsigned count_b,
+// `error` bounds by how much any coordinate of the blocks is off (metres). The triangles whose
+// bits are set in lanes_a and lanes_b are compared. Returns true if any bit is set.
+bool compare(const TriangleBlock& a, unsigned lanes_a, const TriangleBlock& b, unsigned lanes_b,
              double error, BlockSigns& signs);
 
 // The block under a pose, in doubles.

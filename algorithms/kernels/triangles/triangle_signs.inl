@@ -78,21 +78,21 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void compare_lanes(const TriangleBlock& bloc
 }
 
 TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline bool compare_blocks(const TriangleBlock& a,
-                                                                unsigned count_a,
+                                                                unsigned lanes_a,
                                                                 const TriangleBlock& b,
-                                                                unsigned count_b, double error,
+                                                                unsigned lanes_b, double error,
                                                                 BlockSigns& signs) {
-  const unsigned all_b = (1u << count_b) - 1;
   const Vector off = Lanes::broadcast(error);
   signs = {};
   unsigned any = 0;
   for (std::size_t at = 0; at < TriangleBlock::size; at += Lanes::width) {
-    const unsigned wanted = all_b >> at & lane_bits;
+    const unsigned wanted = lanes_b >> at & lane_bits;
     const Points p[3] = {points_at(b, 0, at), points_at(b, 1, at), points_at(b, 2, at)};
     const Points edges[3] = {minus(p[1], p[0]), minus(p[2], p[1]), minus(p[0], p[2])};
     const Points low = least(least(p[0], p[1]), p[2]);
     const Points high = greatest(greatest(p[0], p[1]), p[2]);
-    for (std::size_t i = 0; i < count_a; ++i) {
+    for (unsigned bits = wanted == 0 ? 0 : lanes_a; bits != 0; bits &= bits - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(bits));
       unsigned yes, open;
       compare_lanes(a, i, p, edges, low, high, off, wanted, yes, open);
       signs.yes[i] = static_cast<std::uint8_t>(signs.yes[i] | yes << at);

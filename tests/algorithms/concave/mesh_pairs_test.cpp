@@ -55,6 +55,44 @@ TEST(MeshPairs, EveryMidPhaseGivesTheSameLists) {
   }
 }
 
+// Of fine meshes that just touch, so that pairs are few and their leaves lie close, in poses that are not quite
+// rigid, or not at all.
+TEST(MeshPairs, PosesThatStretchGiveTheListsOfAllPairs) {
+  reference::Random random(3);
+  const std::array<ConcaveBody, 2> bodies = {body_of(reference::torus(40, 16, 1, 0.3)),
+                                             body_of(reference::torus(30, 12, 1, 0.3))};
+  std::size_t hits = 0;
+  const int count = drawn(16, 6);
+  for (int i = 0; i < count; ++i) {
+    const auto bent = [&](double by) {
+      Mat3d turn = random.rotation();
+      for (int k = 0; k < 3; ++k) turn.col(k) += by * random.vector(1);
+      return turn;
+    };
+    const std::array<double, 6> bends = {0, 1e-12, 1e-7, 1e-4, 1e-2, 0.5};
+    const double bend = bends[static_cast<std::size_t>(i) % bends.size()];
+    Pose a = {bent(bend), random.vector(100)}, b = {bent(bend), {}};
+    const Vec3d way = random.vector(1).normalized();
+    double in = 0, out = 6;
+    for (int step = 0; step < 20; ++step) {
+      const double middle = 0.5 * (in + out);
+      b.translation = a.translation + middle * way;
+      (ask("fused", ConcaveTask::intersect, bodies, a, b).meets() ? in : out) = middle;
+    }
+    for (const double depth : {-1e-4, 0.0, 1e-3}) {
+      b.translation = a.translation + (in - depth) * way;
+      const Answered truth = ask("part-pairs", ConcaveTask::contacts, bodies, a, b, "naive");
+      EXPECT_EQ(ask("fused", ConcaveTask::contacts, bodies, a, b).pairs, truth.pairs) << bend;
+      EXPECT_EQ(ask("fused", ConcaveTask::intersect, bodies, a, b).meets(), truth.meets()) << bend;
+      const Answered wide = ask("part-pairs", ConcaveTask::contacts, bodies, a, b, "wide-bvh");
+      EXPECT_EQ(wide.pairs, truth.pairs) << bend;
+      hits += truth.meets();
+    }
+  }
+  EXPECT_GT(hits, static_cast<std::size_t>(count));
+  EXPECT_LT(hits, 3 * static_cast<std::size_t>(count));
+}
+
 TEST(MeshPairs, AMeshOnItself) {
   const TriangleMesh mesh = reference::torus(8, 5, 1, 0.3);
   TriangleMesh off = mesh;

@@ -72,7 +72,7 @@ TEST(TrianglePairs, SignsAreRightWhereTheyDecide) {
           common_frame(pair.pose_a, reach_of(pair.a), pair.pose_b, reach_of(pair.b));
       ASSERT_TRUE(frame.is_of_a);
       BlockSigns signs;
-      compare(block_of(pair.a, {}), 8, block_of(pair.b, frame.b), 8, frame.error, signs);
+      compare(block_of(pair.a, {}), 0xff, block_of(pair.b, frame.b), 0xff, frame.error, signs);
       for (const unsigned bits : signs.yes) lanes_differ += bits != 0 && bits != 0xff;
       for (const unsigned bits : signs.open) lanes_differ += bits != 0 && bits != 0xff;
       if (signs.open[0] != 0) {
