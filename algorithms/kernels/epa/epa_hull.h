@@ -62,6 +62,12 @@ class EpaHull {
   }
   // The face beyond edge k of the face, from its corner k to the next.
   int neighbour(int face, int k) const { return face_of(edges_[4 * face + k].twin); }
+  // The faces that the last point brought.
+  std::span<const int> newest_faces() const {
+    return {places_.data(), static_cast<std::size_t>(ring_size_)};
+  }
+  // All faces are below this.
+  std::size_t face_capacity() const { return places_.size(); }
   const DifferencePoint<Scalar>& vertex(int i) const { return vertices_[i]; }
   std::array<Vec3<Scalar>, 3> points(const std::array<int, 3>& corners) const {
     return {vertices_[corners[0]].difference, vertices_[corners[1]].difference,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double rounding = SupportPair<double>::rounding;
 // Widths of caps (tangents of their angles) that are tried.
-constexpr std::array<double, 6> widths = {2, 1, 0.5, 0.25, 0.1, 0.03};
+constexpr std::array<double, 8> widths = {3, 1.8, 1.1, 0.7, 0.45, 0.25, 0.12, 0.04};
 
 // Without a cap only flat bodies are proven, but a lower foot may have one.
 constexpr int most_without_cap = 16;
@@ -53,89 +53,6 @@ double proven_width(const SmoothPair& pair, const SmoothFoot& foot) {
   return 0;
 }
 
-// A normal along which the polytope may be too low, and a face that sees what is there.
-struct Failure {
-  int face = -1;  // -1: there is none
-  Vec3d along = Vec3d::Zero();
-};
-
-// The part of the sphere of normals that the polytope has to prove: outside of the cap.
-struct Rim {
-  Vec3d normal = Vec3d::Zero();
-  double cosine = 0;  // of the cap's angle; 0 without a cap
-  double height = 0;  // that is to be proven
-
-  // Positive if the vertex of the polar is inside of the plane of the rim.
-  double inside(const Vec3d& m, double distance) const {
-    return cosine > 0 ? height * m.dot(normal) - distance * cosine : -1;
-  }
-  Failure failure(const EpaHull<double>& surface) const;
-  Failure failure_on_rim(const EpaHull<double>& surface) const;
-};
-
-// A face as a vertex of the polar.
-struct PolarVertex {
-  Vec3d normal;
-  // A height that the polytope has along the normal, and, as far as the neighbours' heights say,
-  // along those between: the least of the corners', whatever rounding did to the normal.
-  double height;
-  double inside;  // of the rim
-
-  PolarVertex(const EpaHull<double>& surface, int face, const Rim& rim)
-      : normal(surface.normal(face)) {
-    const std::array<Vec3d, 3> corners = surface.points(surface.corners(face));
-    height = std::min({normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])}) -
-             rounding;
-    inside = rim.inside(normal, height);
-  }
-};
-
-// The lowest face outside of the rim, by the planes as they are; where none is too low, the proof
-// itself.
-Failure Rim::failure(const EpaHull<double>& surface) const {
-  Failure found;
-  double least = height + 2 * rounding;
-  surface.all_faces([&](int f) {
-    const double distance = surface.distance(f);
-    if (!(distance < least)) return true;
-    const Vec3d m = surface.normal(f);
-    if (inside(m, distance) > 0) return true;
-    least = distance;
-    found = {f, m};
-    return true;
-  });
-  return found.face < 0 ? failure_on_rim(surface) : found;
-}
-
-Failure Rim::failure_on_rim(const EpaHull<double>& surface) const {
-  Failure found;
-  double worst = 1 - 4 * rounding;
-  const auto consider = [&](int face, const Vec3d& along, double reached) {
-    const double square = along.squaredNorm();
-    // Most are proven without a root.
-    if (reached > 0 && reached * reached >= height * height * square) return;
-    const double length = std::sqrt(square), part = reached / (height * length);
-    if (!(part < worst)) return;
-    worst = part;
-    found = {face, (1 / length) * along};
-  };
-  surface.all_faces([&](int f) {
-    const PolarVertex own(surface, f, *this);
-    if (own.inside <= 0) {
-      consider(f, own.normal, own.height);
-      return true;
-    }
-    for (int k = 0; k < 3; ++k) {
-      const PolarVertex other(surface, surface.neighbour(f, k), *this);
-      if (other.inside > 0) continue;
-      consider(f, own.inside * other.normal - other.inside * own.normal,
-               own.inside * other.height - other.inside * own.height);
-    }
-    return true;
-  });
-  return found;
-}
-
 }  // namespace
 
 std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
@@ -146,6 +63,7 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
   const double margin = std::max(tolerance / 2, 8 * rounding);
   std::optional<LeastOverlap> found;
   Rim rim;
+  bool is_rim_new = false;
   // Descends from a normal. Returns true if its foot is lower than the last.
   const auto descend = [&](const Vec3d& from, bool at_kink) {
     const std::optional<SmoothFoot> foot = find_foot(smooth, from, at_kink);
@@ -157,6 +75,7 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
     const double width = proven_width(smooth, *foot);
     const double cosine = width > 0 ? (1 + 1e-12) / std::sqrt(1 + width * width) : 0;
     rim = {foot->normal, cosine, found->lower};
+    is_rim_new = true;
     return true;
   };
 
@@ -187,11 +106,14 @@ std::optional<LeastOverlap> LeastOverlapSearch::find(SupportPair<double>& pair,
     if (found && height < found->lower) return false;
     if (!surface_.add(point, face, std::numeric_limits<double>::infinity())) return false;
     ++points;
+    if (found && !is_rim_new) proof_.extend(surface_);
     return true;
   };
 
   for (;;) {
-    const Failure failure = found ? rim.failure(surface_) : Failure{};
+    if (is_rim_new) proof_.start(surface_, rim);
+    is_rim_new = false;
+    const RimProof::Failure failure = found ? proof_.failure(surface_) : RimProof::Failure{};
     if (found && failure.face < 0) break;
     if (!found) {
       const auto nearest = surface_.nearest_face();

@@ -6,11 +6,7 @@
 // because the excess of a tie or a disc over its balanced point, (1 - share) |g . t|, is at least
 // (1 - share) (g . t)^2 / (|g| width). If K has no eigenvalue below `held`, no normal within the cap
 // |t| <= width has a height below `held`, up to the slide: sqrt(1 + t^2) <= 1 + t^2 / 2.
-// Outside of that cap a polytope in the difference proves it. Let its faces be the planes m . x = d.
-// The normals along which the polytope is lower than h are those inside the polar polytope with the
-// vertices h m / d. So none is outside of the cap if no such vertex there is further than 1 from the
-// origin, nor any point where an edge of the polar crosses the plane of the cap's rim. The edges
-// belong to neighbouring faces.
+// Outside of that cap a polytope in the difference proves it (rim_proof).
 // Steps:   1. Start with GJK's tetrahedron around the origin, and descend to a foot from the lowest of
 //             its faces' normals and of the kinks known (`best_kink`).
 //          2. Find the widest cap that is proven around the foot.
@@ -19,13 +15,14 @@
 //          4. If such a point is lower than the foot, descend from there and start over at 2 with the
 //             lower of both.
 // Paper:   Newton's caps: see smooth_foot.h; the polytope: van den Bergen, GDC 2001, as in
-//          kernels/epa; polarity: Ziegler, "Lectures on Polytopes", 1995, sec. 2.3.
+//          kernels/epa.
 #pragma once
 
 #include <optional>
 
 #include "algorithms/kernels/epa/epa_hull.h"
 #include "algorithms/kernels/minkowski/simplex.h"
+#include "algorithms/narrow_phase/smooth/rim_proof.h"
 #include "algorithms/narrow_phase/smooth/smooth_foot.h"
 
 namespace touchstone {
@@ -40,7 +37,9 @@ class LeastOverlapSearch {
  public:
   // `most_points` of the polytope, at least 4.
   explicit LeastOverlapSearch(int most_points)
-      : most_points_(most_points), surface_(static_cast<std::size_t>(most_points) + 4) {}
+      : most_points_(most_points),
+        surface_(static_cast<std::size_t>(most_points) + 4),
+        proof_(surface_.face_capacity()) {}
 
   // `simplex` is a tetrahedron around the origin. `tolerance` is that of the depth, in the pair's
   // unit. Returns none if it proves no depth.
@@ -50,6 +49,7 @@ class LeastOverlapSearch {
  private:
   int most_points_;
   EpaHull<double> surface_;
+  RimProof proof_;
 };
 
 }  // namespace touchstone

@@ -22,7 +22,7 @@
 // Fails:   like gjk where a second normal is as good to 1e-12, as between coaxial bodies: the answer
 //          is gjk's, with its tolerance of 1e-10.
 // Cost:    O(1); GJK, about 10 support calls of Newton's method, and about 20 points of a polytope.
-//          Caps: 128 iterations of GJK, 64 points. Tolerance relative to the size: 1e-12.
+//          Caps: 128 iterations of GJK, 96 points. Tolerance relative to the size: 1e-12.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -39,7 +39,7 @@
 namespace touchstone {
 namespace {
 
-constexpr int default_point_cap = 64;
+constexpr int default_point_cap = 96;
 
 class SmoothNormals final : public NarrowPhase {
  public:

@@ -120,18 +120,25 @@ bool descend_on_circle(const SmoothCore& tied, const SmoothCore& other, const Ve
   return true;
 }
 
-// The normal nearest to `normal` where both circles meet.
-bool meet(const SmoothCore& a, const SmoothCore& b, Vec3d& normal) {
+// The normals where both circles meet: `middle` plus and minus `half`.
+struct Meeting {
+  Vec3d middle, half;
+
+  // That nearest to n.
+  Vec3d near(const Vec3d& n) const {
+    return unit(half.dot(n) < 0 ? Vec3d(middle - half) : Vec3d(middle + half));
+  }
+};
+
+std::optional<Meeting> meet(const SmoothCore& a, const SmoothCore& b) {
   const double d = a.axis().dot(b.axis());
   const Vec3d cross = a.axis().cross(b.axis());
   const double square = cross.squaredNorm();
-  if (!(square > 1e-12)) return false;
+  if (!(square > 1e-12)) return std::nullopt;
   const double of_a = (a.tilt() - d * b.tilt()) / square, of_b = (b.tilt() - d * a.tilt()) / square;
   const double left = (1 - of_a * a.tilt() - of_b * b.tilt()) / square;
-  if (!(left > 0)) return false;
-  const double of_cross = std::copysign(std::sqrt(left), cross.dot(normal));
-  normal = unit(of_a * a.axis() + of_b * b.axis() + of_cross * cross);
-  return true;
+  if (!(left > 0)) return std::nullopt;
+  return Meeting{of_a * a.axis() + of_b * b.axis(), std::sqrt(left) * cross};
 }
 
 }  // namespace
@@ -161,8 +168,10 @@ std::optional<SmoothFoot> find_foot(const SmoothPair& pair, const Vec3d& start, 
     return core.has_tie() && std::abs(core.angle_to_tie(normal)) < near_kink;
   };
   const bool tie_a = is_near_tie(pair.a), tie_b = is_near_tie(pair.b);
-  Vec3d at_meeting = normal;
-  if (tie_a && tie_b && meet(pair.a, pair.b, at_meeting) && is_lower_foot(at_meeting)) return foot;
+  if (tie_a && tie_b) {
+    const std::optional<Meeting> meeting = meet(pair.a, pair.b);
+    if (meeting && is_lower_foot(meeting->near(normal))) return foot;
+  }
   for (const bool of_a : {!first, first}) {
     if (of_a == first && tied) continue;
     if ((of_a ? tie_a : tie_b) && descends_on_tie(of_a, normal)) return foot;
@@ -193,12 +202,9 @@ std::optional<Vec3d> best_kink(const SmoothPair& pair, double below) {
     if (!core->is_cone()) consider(core->axis());
   }
   if (pair.a.has_tie() && pair.b.has_tie()) {
-    Vec3d meeting = pair.a.axis().cross(pair.b.axis());
-    for (int side = 0; side < 2; ++side) {
-      Vec3d n = meeting;
-      if (!meet(pair.a, pair.b, n)) break;
-      consider(n);
-      meeting = -meeting;
+    if (const std::optional<Meeting> meeting = meet(pair.a, pair.b)) {
+      consider(unit(meeting->middle + meeting->half));
+      consider(unit(meeting->middle - meeting->half));
     }
   }
   return best;

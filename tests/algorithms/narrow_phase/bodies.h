@@ -133,6 +133,10 @@ inline Shape random_hull(Random& random, int points) {
   return hull_of(on_sphere);
 }
 
+inline Shape any_hull(Random& random) {
+  return random_hull(random, 4 + static_cast<int>(random() % 20));
+}
+
 inline Shape octahedron() {
   return hull_of({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
 }

@@ -82,7 +82,6 @@ PortalTally sweep(Precision scalar, const MakeShape& make, int count, double spr
 Shape any_box(Random& random) {
   return box(uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1));
 }
-Shape any_hull(Random& random) { return random_hull(random, 4 + static_cast<int>(random() % 20)); }
 
 class MprRefined : public testing::TestWithParam<Precision> {
  protected:

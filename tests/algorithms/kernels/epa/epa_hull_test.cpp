@@ -85,6 +85,17 @@ class PolytopeSurfaceTest : public testing::Test {
     EXPECT_NEAR(surface.nearest_face().distance, least, 2 * rounding);
   }
 
+  // The newest faces are those with the newest vertex.
+  static void expect_newest(const Surface& surface, int vertex) {
+    std::set<int> with_it;
+    for (const int face : faces(surface)) {
+      const std::array<int, 3> corners = surface.corners(face);
+      if (std::ranges::count(corners, vertex) != 0) with_it.insert(face);
+    }
+    const auto newest = surface.newest_faces();
+    EXPECT_EQ(std::set<int>(newest.begin(), newest.end()), with_it);
+  }
+
   // Grows a surface by such points; how many were added.
   template <class Draw>
   static int grow(Surface& surface, const Draw& draw, bool sound) {
@@ -96,6 +107,7 @@ class PolytopeSurfaceTest : public testing::Test {
       const bool seen = height > rounding;
       const bool grew = seen && surface.add(p, face, std::numeric_limits<Scalar>::infinity());
       added += grew ? 1 : 0;
+      if (grew) expect_newest(surface, added + 3);
       if (sound && i % 8 == 0) expect_sound(surface);
     }
     if (sound) expect_sound(surface);
