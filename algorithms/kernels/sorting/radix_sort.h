@@ -43,12 +43,9 @@ class RadixSort {
 
  private:
   // Sixteen blocks of one size spread evenly over 2, 4 or 8 threads. Smaller blocks would not pay
-  // for their histograms; larger ones leave the cache. Few items are cut in two: more blocks than that
-  // write more lines that another core holds.
+  // for their histograms; larger ones leave the cache.
   static std::size_t block_size_of(std::size_t items) {
-    constexpr std::size_t least = 2048;
-    if (items < 8 * least) return std::max(block_count(items, 2), least);
-    return std::clamp(block_count(items, 16), least, std::size_t{8192});
+    return std::clamp(block_count(items, 16), std::size_t{2048}, std::size_t{8192});
   }
 
   template <class Digit>
