@@ -58,12 +58,12 @@ bool in(const std::string& path, const std::string& folder) {
 
 bool is_contract(const std::string& path) {
   static const std::set<std::string> contracts = {
-      "broad_phase",       "narrow_phase", "contact_manifold",
-      "ray_cast",          "point_query",  "mid_phase",
-      "concave_phase",     "cast",         "ccd",
-      "encoding",          "limit",        "algorithm_info",
-      "broad_phase_work",  "pair_query",   "signed_by_two",
-      "within_margin",     "moving_pairs", "scene_ray_cast",
+      "broad_phase",        "narrow_phase", "contact_manifold",
+      "ray_cast",           "point_query",  "mid_phase",
+      "concave_phase",      "cast",         "ccd",
+      "encoding",           "limit",        "algorithm_info",
+      "broad_phase_work",   "pair_query",   "signed_by_two",
+      "within_margin",      "moving_pairs", "scene_ray_cast",
       "mid_phase_of_bodies"};
   return path.starts_with("algorithms/") && path.ends_with(".h") &&
          contracts.contains(path.substr(11, path.size() - 13));

@@ -5,8 +5,9 @@
 // Steps:   1. Bind: boxes of all parts go to the mid-phase; `fused` builds trees of its own for
 //             meshes, and gives boxes to the mid-phase when two bodies of convex parts are asked.
 //          2. Two meshes: pairs of triangles are decided by the signs of volumes in doubles, and in
-//             integers where rounding hides a sign. `fused` descends trees of its own, with boxes in both bodies' frames, leaves out
-//             what lies beyond a leaf's ends along its normal, and tests two leaves of eight at once.
+//             integers where rounding hides a sign. `fused` descends trees of its own, with boxes in
+//             both bodies' frames, leaves out what lies beyond a leaf's ends along its normal, and
+//             tests two leaves of eight at once.
 //          3. A convex part with a convex part or a triangle: a narrow phase decides, sixty-four
 //             pairs at a time. `fused` searches the mesh's tree in the part's frame and tests leaves
 //             of eight triangles (convex_search); the narrow phase gets what rounding leaves open.

@@ -18,7 +18,7 @@ class BoxTree {
  public:
   using Triangles = std::span<const std::array<std::uint32_t, 3>>;
   struct Box {
-    Vec3d low, high;  // finite, or the box is not met
+    Vec3d low, high;  // finite
   };
 
   // Both must live as long as the tree is asked. Vertices are finite.

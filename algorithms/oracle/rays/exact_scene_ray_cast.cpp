@@ -13,7 +13,7 @@
 //          not know, the status is `not_converged`. Normals are not given. Of parts that are hit at
 //          one time, the first is reported. Poses of parts within bodies are multiplied in doubles.
 // Cost:    O(log n) a ray where parts are small, some microseconds for each triangle and a tenth of a
-//          millisecond for each convex part that may be hit; 100 bytes a part.
+//          millisecond for each convex part that may be hit; O(n) memory.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -152,7 +152,8 @@ TEST_F(BulletDouble, NeitherBuildDisturbsTheOther) {
 TEST_F(BulletDouble, DistancesAreDoubles) {
   const NarrowPhaseEntry& entry = *entries_.front();
   oracle::Oracle oracle;
-  for (const Pairs& pairs : {Pairs(some_box, some_box), Pairs(some_sphere, some_box), Pairs(some_hull, some_hull)}) {
+  for (const Pairs& pairs :
+       {Pairs(some_box, some_box), Pairs(some_sphere, some_box), Pairs(some_hull, some_hull)}) {
     const auto in_float = pairs.ask(entry, Precision::float32, Task::distance);
     const auto in_double = pairs.ask(entry, Precision::float64, Task::distance);
     int apart = 0, coarse = 0;
