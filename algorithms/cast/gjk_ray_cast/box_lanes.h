@@ -33,9 +33,9 @@ struct BoxLane {
   double tolerance;
 };
 
-// False if the numbers are beyond the proof: matrices far from rotations, or lengths whose squares are.
-bool load_box_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a, const Shape& b,
-                   const Pose& pose_b, const Motion& motion_b, BoxLane& lane);
+// Refuses numbers that are beyond the proof: matrices far from rotations, or lengths whose squares are.
+LaneLoad load_box_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a, const Shape& b,
+                       const Pose& pose_b, const Motion& motion_b, BoxLane& lane);
 
 // Both have the same size. The path in the bracket of a hit is within the tolerance.
 void cast_boxes(std::span<const BoxLane> lanes, std::span<LaneTimes> times);

@@ -1,9 +1,18 @@
 // Part of gjk-ray-cast-lanes: what a lane found of a pair that moves without turning.
 #pragma once
 
+#include <cstdint>
+
 #include "algorithms/core/vec.h"
 
 namespace touchstone {
+
+// What loading a pair into a lane told.
+enum class LaneLoad : std::uint8_t {
+  loaded,
+  miss,     // balls around the bodies stay apart
+  refused,  // the numbers are beyond the proof of the lanes
+};
 
 // The pair is undecided unless `is_miss` or `is_hit` is set. A hit is one at a time > 0, with a bracket.
 struct LaneTimes {

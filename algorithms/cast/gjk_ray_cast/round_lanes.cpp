@@ -16,8 +16,8 @@ namespace {
 
 }  // namespace
 
-bool load_round_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a, const Shape& b,
-                     const Pose& pose_b, const Motion& motion_b, RoundLane& lane) {
+LaneLoad load_round_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a, const Shape& b,
+                         const Pose& pose_b, const Motion& motion_b, RoundLane& lane) {
   const Vec3d offset = pose_b.translation - pose_a.translation;
   const Vec3d velocity = motion_b.displacement - motion_a.displacement;
   const auto side = [](const Shape& shape, const Pose& pose) -> Vec3d {
@@ -36,7 +36,7 @@ bool load_round_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a,
   }
   lane.radius_a = a.radius;
   lane.radius = a.radius + b.radius;
-  return greatest > 1e-70 && greatest < 1e70;
+  return greatest > 1e-70 && greatest < 1e70 ? LaneLoad::loaded : LaneLoad::refused;
 }
 
 void cast_round(std::span<const RoundLane> lanes, std::span<LaneTimes> times) {

@@ -26,9 +26,9 @@ struct RoundLane {
   double tolerance;
 };
 
-// False if the numbers are beyond the proof: lengths whose squares are.
-bool load_round_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a, const Shape& b,
-                     const Pose& pose_b, const Motion& motion_b, RoundLane& lane);
+// Refuses numbers that are beyond the proof: lengths whose squares are.
+LaneLoad load_round_lane(const Shape& a, const Pose& pose_a, const Motion& motion_a, const Shape& b,
+                         const Pose& pose_b, const Motion& motion_b, RoundLane& lane);
 
 // Both have the same size.
 void cast_round(std::span<const RoundLane> lanes, std::span<LaneTimes> times);

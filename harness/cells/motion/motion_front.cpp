@@ -17,7 +17,7 @@ namespace {
 
 constexpr int most_substeps = 64;
 constexpr const char* broad_name = "linear-bvh";
-constexpr const char* ours_in_one_chain = "closed-form+gjk-ray-cast+rigid-advancement";
+constexpr const char* ours_in_one_chain = "closed-form+mpr-ray-cast+gjk-ray-cast+rigid-advancement";
 constexpr std::array<const char*, 3> narrow_names = {"closed-form+gjk", "closed-form+gjk-lanes+gjk",
                                                      "sat+closed-form+gjk"};
 // The share of the time that goes into samples; the rest prepares and grades.

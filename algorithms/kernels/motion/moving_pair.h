@@ -1,4 +1,4 @@
-// Part of gjk-ray-cast: two bodies whose rotations are fixed, as the difference A - B of their cores
+// Used by gjk-ray-cast and mpr-ray-cast: two bodies whose rotations are fixed, as the difference A - B of their cores
 // and a point that moves past it.
 #pragma once
 
@@ -23,30 +23,40 @@ class MovingPair {
   // in all 273 u.
   static constexpr double rounding = 144 * std::numeric_limits<double>::epsilon();
 
-  MovingPair(const SupportShape<double>& a, const Pose& pose_a, const Motion& motion_a,
-             const SupportShape<double>& b, const Pose& pose_b, const Motion& motion_b);
+  // The reach is that of both bodies (metres): the sum of the radii of balls about their centres.
+  MovingPair(const CentreOffset& offset, const Vec3d& displacement, double reach,
+             const SupportShape<double>& a, const Mat3d& rotation_a, const SupportShape<double>& b,
+             const Mat3d& rotation_b);
 
   // False if lengths are beyond the range of the proof.
   bool is_in_range() const { return unit_ < 0x1p959; }
 
-  // Returns true if a plane parts balls around the bodies from time 0 to 1. If not, `direction` is
-  // a good first one to search for a plane along.
-  bool balls_miss(Vec3d& direction) const;
+  // A good direction to search for a first plane along.
+  Vec3d first_direction() const;
 
   // The point of the difference furthest in a direction. `a` and `b` are relative to the bodies' own
   // centres; `difference` is relative to b's offset at the time.
-  DifferencePoint<double> support(const Vec3d& direction);
+  template <class CoreOfA = GenericCore, class CoreOfB = GenericCore>
+  DifferencePoint<double> support(const Vec3d& direction) {
+    DifferencePoint<double> point;
+    point.a = a_.support<CoreOfA>(direction);
+    point.b = b_.support<CoreOfB>(-direction);
+    point.difference = point.a - (point.b + offset_);
+    return point;
+  }
 
   // Sets the time, and moves the differences of a simplex there.
   void move_to(double time, Simplex<double>& simplex);
 
+  const SupportShape<double>& shape_a() const { return a_.shape(); }
+  const SupportShape<double>& shape_b() const { return b_.shape(); }
   double time() const { return time_; }
   const Vec3d& start() const { return start_; }
   const Vec3d& offset() const { return offset_; }
   const Vec3d& velocity() const { return velocity_; }
   double radius() const { return a_.radius() + b_.radius(); }
   double unit() const { return unit_; }
-  double size() const { return size_; }  // of the larger body
+  double reach() const { return reach_; }  // of the difference, from its centre
   // The radius of a ball about -offset() that the difference of the cores holds, or 0.
   double inner_radius() const { return inner_radius_; }
   void set_inner_radius(double metres) { inner_radius_ = metres / unit_; }
@@ -55,11 +65,8 @@ class MovingPair {
   }
 
  private:
-  MovingPair(const CentreOffset& offset, const Vec3d& displacement, const SupportShape<double>& a,
-             const Mat3d& rotation_a, const SupportShape<double>& b, const Mat3d& rotation_b);
-
   double unit_;  // metres, a power of two
-  double reach_a_, reach_b_, size_;
+  double reach_;
   PosedShape<double> a_, b_;
   Vec3d start_, velocity_, offset_;
   double time_ = 0, inner_radius_ = 0;

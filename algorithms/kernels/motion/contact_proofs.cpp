@@ -1,6 +1,6 @@
-// Part of gjk-ray-cast: GJK between the difference of two bodies and the path of their offset, or one
+// Of casts without rotation: GJK between the difference of two bodies and the path of their offset, or one
 // point of it.
-#include "algorithms/cast/gjk_ray_cast/contact_proofs.h"
+#include "algorithms/kernels/motion/contact_proofs.h"
 
 #include <algorithm>
 

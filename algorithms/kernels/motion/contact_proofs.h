@@ -1,7 +1,7 @@
-// Part of gjk-ray-cast: proofs about bodies in contact, by GJK at fixed times.
+// Used by gjk-ray-cast and mpr-ray-cast: proofs about bodies in contact, by GJK at fixed times.
 #pragma once
 
-#include "algorithms/cast/gjk_ray_cast/moving_pair.h"
+#include "algorithms/kernels/motion/moving_pair.h"
 
 namespace touchstone {
 

@@ -1,0 +1,65 @@
+// A pair of bodies that move without turning: the search for their first contact by GJK, and what an
+// outcome needs after any search. Used by gjk-ray-cast and mpr-ray-cast.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algorithms/cast.h"
+#include "algorithms/kernels/motion/moving_pair.h"
+#include "algorithms/kernels/motion/relative_motion.h"
+
+namespace touchstone {
+
+// How a search ended: `open` if it gave up.
+enum class PathEnd : std::uint8_t { hit, miss, open };
+
+// What a search found. The pair is at the greatest time before which it is proven free.
+struct PathContact {
+  Simplex<double> simplex;       // points that touch or nearly do, with weights
+  NearestPoint<double> nearest;  // to the origin, of the simplex at the pair's time
+  Vec3d plane = Vec3d::Zero();   // normal, from a to b, of the last plane through which time grew
+  Vec3d direction = Vec3d::Zero();  // the next one for GJK; zero if it has not begun
+  int iterations = 0;
+};
+
+// The tolerance is in the pair's unit.
+using PathSearch = PathEnd (*)(MovingPair& pair, double tolerance, int most_iterations,
+                               PathContact& found);
+
+// By GJK, from the time at which the pair is. Time grows only through planes
+// whose gap is proven.
+PathEnd search_by_gjk(MovingPair& pair, double tolerance, int most_iterations, PathContact& found);
+
+// Moves the pair to where a support plane with this unit normal closes, if that is later than where it is,
+// and sets `found.plane`. Returns true if the plane parts the bodies up to time 1. `gap` is that of the plane at
+// the pair's time.
+bool part_by_plane(MovingPair& pair, const Vec3d& normal, double gap, PathContact& found);
+
+// Casts one pair at a time by a search, with half-spaces in closed form.
+class LinearCast {
+ public:
+  LinearCast(const CastSettings& settings, PathSearch search)
+      : settings_(settings),
+        most_iterations_(std::max(1, settings.max_iterations.value_or(128))),
+        search_(search) {}
+
+  void bind(std::span<const Shape> shapes);
+  void solve(const CastBatch& batch, std::size_t i, CastOutcome& outcome) const;
+  // All pairs, one after the other.
+  void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) const;
+  // Metres, for a pair of shapes of the scene.
+  double tolerance(std::uint32_t shape_a, std::uint32_t shape_b) const;
+
+ private:
+  MovingBody moving(const CastBatch& batch, std::uint32_t k) const;
+  void cast_bounded(const MovingBody& a, const MovingBody& b, CastOutcome& outcome) const;
+
+  CastSettings settings_;
+  int most_iterations_;
+  PathSearch search_;
+  std::vector<SupportShape<double>> shapes_;
+  std::vector<double> inner_radii_;  // metres, one for each shape
+};
+
+}  // namespace touchstone
