@@ -23,7 +23,7 @@ AdvancementSearch::AdvancementSearch(const RelativeMotion& motion, const Advance
   tolerance_ = std::max(goal.tolerance.value_or(1e-9 * larger), hidden);
 }
 
-FreeUntil apart_by_balls(const RelativeMotion& motion) {
+FreeUntil apart_by_balls(const MotionBounds& motion) {
   const Vec3d start = motion.offset(0);
   const Vec3d& velocity = motion.displacement();
   const double square = velocity.squaredNorm(), away = start.norm();

@@ -22,13 +22,12 @@ struct AdvancementGoal {
   // Metres; without one, 1e-9 of the larger body's size. It is never less than what rounding hides.
   std::optional<double> tolerance;
   int most_steps = 0;
-  bool balls_first = false;  // begin where balls about the bodies' origins meet
 };
 
 // `Step`: FreeUntil operator()(SupportPair<double>& pair, const PartingPlane& plane), where the pair
-// is at the plane's time.
+// is at the plane's time. The pair is known to be free before the time at which it begins.
 template <class Step>
-void advance(const RelativeMotion& motion, const AdvancementGoal& goal, Step&& step,
+void advance(const RelativeMotion& motion, const AdvancementGoal& goal, double begin, Step&& step,
              CastOutcome& outcome);
 
 // --- the parts that do not depend on the step -----------------------------------------------------
@@ -41,7 +40,7 @@ struct Advancement {
 };
 
 // How long balls about the bodies' origins are proven to stay apart from time 0 on.
-FreeUntil apart_by_balls(const RelativeMotion& motion);
+FreeUntil apart_by_balls(const MotionBounds& motion);
 
 class AdvancementSearch {
  public:
@@ -68,21 +67,12 @@ class AdvancementSearch {
 };
 
 template <class Step>
-void advance(const RelativeMotion& motion, const AdvancementGoal& goal, Step&& step,
+void advance(const RelativeMotion& motion, const AdvancementGoal& goal, double begin, Step&& step,
              CastOutcome& outcome) {
   AdvancementSearch search(motion, goal);
   outcome.status = Status::not_converged;
   outcome.iterations = 0;
-  double time = 0;
-  if (goal.balls_first) {
-    const FreeUntil free = apart_by_balls(motion);
-    if (free.to_the_end) {
-      outcome.answer = CastAnswer::miss;
-      outcome.status = Status::ok;
-      return;
-    }
-    time = free.time;
-  }
+  double time = begin;
   outcome.lower = time;
   for (int k = 0; k < goal.most_steps; ++k) {
     SupportPair<double> pair = motion.at(time);

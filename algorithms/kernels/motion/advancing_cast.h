@@ -17,8 +17,7 @@ template <class Step>
 class AdvancingCast final : public Cast {
  public:
   explicit AdvancingCast(const CastSettings& settings)
-      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000)),
-              Step::balls_first} {}
+      : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000))} {}
 
   void bind(std::span<const Shape> shapes) override {
     shapes_ = make_support_shapes<double>(shapes);
@@ -35,9 +34,16 @@ class AdvancingCast final : public Cast {
                        {goal_.tolerance.value_or(0)}, outcomes[i]);
         continue;
       }
-      const RelativeMotion motion(a, b);
+      const MotionBounds bounds(a, b);
+      FreeUntil free{0, false};
+      if constexpr (Step::balls_first) free = apart_by_balls(bounds);
+      if (free.to_the_end) {
+        outcomes[i] = {.answer = CastAnswer::miss, .status = Status::ok, .iterations = 0};
+        continue;
+      }
+      const RelativeMotion motion(bounds);
       advance(
-          motion, goal_,
+          motion, goal_, free.time,
           [&](SupportPair<double>& pair, const PartingPlane& plane) {
             return Step::step(motion, pair, plane);
           },

@@ -18,10 +18,10 @@ double turning_rounding(const MovingBody& body, double reach) {
   return (4 * body.motion->rotation_vector.norm() + 30) * epsilon * reach;
 }
 
-// The matrix of the cross product with a vector.
-Mat3d cross_matrix(const Vec3d& v) {
+// Each column's cross product with a vector.
+Mat3d cross_columns(const Vec3d& v, const Mat3d& matrix) {
   Mat3d across;
-  across << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  for (int k = 0; k < 3; ++k) across.col(k) = v.cross(matrix.col(k));
   return across;
 }
 
@@ -39,17 +39,18 @@ SineAndVersine sine_and_versine(double angle) {
 Mat3d rotation_by(const Vec3d& rotation_vector) {
   const double angle = rotation_vector.norm();
   if (!(angle > 0)) return Mat3d::Identity();
-  const Mat3d across = cross_matrix(rotation_vector / angle);
+  const Vec3d axis = rotation_vector / angle;
+  const Mat3d across = cross_columns(axis, Mat3d::Identity());
   const auto [sine, versine] = sine_and_versine(angle);
-  return Mat3d::Identity() + sine * across + versine * (across * across);
+  return Mat3d::Identity() + sine * across + versine * cross_columns(axis, across);
 }
 
 TurningPose::TurningPose(const MovingBody& body)
     : start_(body.pose->rotation), angle_(body.motion->rotation_vector.norm()) {
   if (!(angle_ > 0)) return;
-  const Mat3d across = cross_matrix(body.motion->rotation_vector / angle_);
-  across_ = across * start_;
-  twice_across_ = across * across_;
+  const Vec3d axis = body.motion->rotation_vector / angle_;
+  across_ = cross_columns(axis, start_);
+  twice_across_ = cross_columns(axis, across_);
 }
 
 Mat3d TurningPose::at(double time) const {
@@ -64,11 +65,9 @@ double stretch_of(const Mat3d& matrix) {
   return std::sqrt(square.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 1e-12);
 }
 
-RelativeMotion::RelativeMotion(const MovingBody& a, const MovingBody& b)
+MotionBounds::MotionBounds(const MovingBody& a, const MovingBody& b)
     : a_(a),
       b_(b),
-      turning_a_(a),
-      turning_b_(b),
       offset_(b.pose->translation - a.pose->translation),
       displacement_(b.motion->displacement - a.motion->displacement),
       reach_a_(reach_of(a)),
@@ -79,16 +78,16 @@ RelativeMotion::RelativeMotion(const MovingBody& a, const MovingBody& b)
 }
 
 Vec3d RelativeMotion::centre_a(double time) const {
-  return a_.shape->is_centred ? Vec3d(Vec3d::Zero()) : turning_a_.at(time) * a_.shape->centre;
+  return a().shape->is_centred ? Vec3d(Vec3d::Zero()) : turning_a_.at(time) * a().shape->centre;
 }
 Vec3d RelativeMotion::centre_b(double time) const {
-  return b_.shape->is_centred ? Vec3d(Vec3d::Zero()) : turning_b_.at(time) * b_.shape->centre;
+  return b().shape->is_centred ? Vec3d(Vec3d::Zero()) : turning_b_.at(time) * b().shape->centre;
 }
 
 SupportPair<double> RelativeMotion::at(double time) const {
   const Pose pose_a = {turning_a_.at(time), Vec3d::Zero()};
   const Pose pose_b = {turning_b_.at(time), offset(time)};
-  return {*a_.shape, pose_a, *b_.shape, pose_b};
+  return {*a().shape, pose_a, *b().shape, pose_b};
 }
 
 }  // namespace touchstone

@@ -39,20 +39,13 @@ class TurningPose {
   double angle_;
 };
 
-// The frame moves with the origin of body a, and keeps the world's axes. Lengths are in metres.
-class RelativeMotion {
+// What is known of a moving pair before its bodies turn. The frame moves with the origin of body a, and
+// keeps the world's axes. Lengths are in metres.
+class MotionBounds {
  public:
-  RelativeMotion(const MovingBody& a, const MovingBody& b);
+  MotionBounds(const MovingBody& a, const MovingBody& b);
 
-  // How far rounding moves a support point of a pair made by `at`, or its plane, in the pair's own
-  // unit; certified/proven_rounding.h proves 248 u, and the rest is for the unit length of a
-  // direction and for the arithmetic on gaps. `placement_rounding` comes on top.
-  static constexpr double pair_rounding = 160 * std::numeric_limits<double>::epsilon();
-
-  // The pair at a time in [0, 1]. Its `to_world` has no meaning: the pose of a that it refers to is gone.
-  SupportPair<double> at(double time) const;
-
-  // How far a point of a body that `at` places is off its place relative to the other body
+  // How far a point of a body that RelativeMotion::at places is off its place relative to the other body
   // (metres). With u half of epsilon: the offset of the origins is off by u of itself, the
   // displacement by 2 u and the sum by u, and a step multiplies the displacement by a direction and a
   // time, 8 u; exp(t w) R is off by (4 |w| + 30) u a body that turns, times
@@ -61,9 +54,6 @@ class RelativeMotion {
 
   const Vec3d& displacement() const { return displacement_; }                 // of b relative to a
   Vec3d offset(double time) const { return offset_ + time * displacement_; }  // of b's origin
-  // The centre of a body's shape from its origin at that time, in world axes.
-  Vec3d centre_a(double time) const;
-  Vec3d centre_b(double time) const;
   // Greatest distance of a core's point from the body's origin.
   double reach_a() const { return reach_a_; }
   double reach_b() const { return reach_b_; }
@@ -77,11 +67,32 @@ class RelativeMotion {
 
  private:
   MovingBody a_, b_;
-  TurningPose turning_a_, turning_b_;
   Vec3d offset_;        // from a's origin to b's at time 0
   Vec3d displacement_;  // of b relative to a
   double reach_a_, reach_b_;
   double placement_rounding_;
+};
+
+// The pair at any time.
+class RelativeMotion : public MotionBounds {
+ public:
+  explicit RelativeMotion(const MotionBounds& bounds)
+      : MotionBounds(bounds), turning_a_(bounds.a()), turning_b_(bounds.b()) {}
+
+  // How far rounding moves a support point of a pair made by `at`, or its plane, in the pair's own
+  // unit; certified/proven_rounding.h proves 248 u, and the rest is for the unit length of a
+  // direction and for the arithmetic on gaps. `placement_rounding` comes on top.
+  static constexpr double pair_rounding = 160 * std::numeric_limits<double>::epsilon();
+
+  // The pair at a time in [0, 1]. Its `to_world` has no meaning: the pose of a that it refers to is gone.
+  SupportPair<double> at(double time) const;
+
+  // The centre of a body's shape from its origin at that time, in world axes.
+  Vec3d centre_a(double time) const;
+  Vec3d centre_b(double time) const;
+
+ private:
+  TurningPose turning_a_, turning_b_;
 };
 
 }  // namespace touchstone
