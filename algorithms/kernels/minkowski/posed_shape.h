@@ -136,7 +136,7 @@ inline Vec3<Scalar> PosedShape<Scalar>::support(const Vec3<Scalar>& direction) {
         return matrix_ * shape_->cells.vertex(vertex_);
       }
       vertex_ = shape_->furthest(d);
-      return matrix_ * shape_->scanned_vertex(vertex_);
+      return matrix_ * shape_->vertex(vertex_);
     case Core::point:
     case Core::halfspace: break;  // a half-space has no furthest point: see halfspace.h
   }

@@ -39,8 +39,8 @@ class MovingPair {
   template <class CoreOfA = GenericCore, class CoreOfB = GenericCore>
   DifferencePoint<double> support(const Vec3d& direction) {
     DifferencePoint<double> point;
-    point.a = a_.support<CoreOfA>(direction);
-    point.b = b_.support<CoreOfB>(-direction);
+    point.a = furthest<CoreOfA>(a_, direction);
+    point.b = furthest<CoreOfB>(b_, -direction);
     point.difference = point.a - (point.b + offset_);
     return point;
   }
@@ -65,6 +65,17 @@ class MovingPair {
   }
 
  private:
+  // The vertices of a hull that has just been scanned are near.
+  template <class Core>
+  static Vec3d furthest(PosedShape<double>& posed, const Vec3d& direction) {
+    const SupportShape<double>& shape = posed.shape();
+    if (Core::of(shape) != SupportCore::hull || !shape.cells.empty()) {
+      return posed.support<Core>(direction);
+    }
+    return posed.matrix() *
+           shape.scanned_vertex(shape.furthest(posed.matrix().transpose() * direction));
+  }
+
   double unit_;  // metres, a power of two
   double reach_;
   PosedShape<double> a_, b_;

@@ -1,6 +1,7 @@
 // Poses of a moving pair, and how far rounding moves them.
 #include "algorithms/kernels/motion/relative_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -60,9 +61,12 @@ Mat3d TurningPose::at(double time) const {
 }
 
 double stretch_of(const Mat3d& matrix) {
-  // The greatest eigenvalue of M^T M is at most its greatest row sum.
-  const Mat3d square = matrix.transpose() * matrix;
-  return std::sqrt(square.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 1e-12);
+  // The greatest eigenvalue of M^T M, which is symmetric, is at most its greatest row sum.
+  const auto x = matrix.col(0), y = matrix.col(1), z = matrix.col(2);
+  const double xy = std::abs(x.dot(y)), yz = std::abs(y.dot(z)), zx = std::abs(z.dot(x));
+  const double greatest = std::max({x.squaredNorm() + xy + zx, y.squaredNorm() + yz + xy,
+                                    z.squaredNorm() + zx + yz});
+  return std::sqrt(greatest) * (1 + 1e-12);
 }
 
 MotionBounds::MotionBounds(const MovingBody& a, const MovingBody& b)
