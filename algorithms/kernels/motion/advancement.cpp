@@ -69,10 +69,15 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
 Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double time,
                                            int& iterations) {
   constexpr int most_iterations = 128;
+  constexpr double share = 0.1;
   const double unit = pair.unit();
+  // Far from contact a rough plane serves as well.
+  const Vec3d along = normal_.isZero(0) ? Vec3d(pair.centre_b().stableNormalized()) : normal_;
+  const double open = -along.dot(pair.support(along).difference) - pair.radius();
   const GjkDistanceGoal<double> goal{
       .task = Task::distance,
-      .tolerance = std::max(0.25 * tolerance_ / unit, SupportPair<double>::rounding),
+      .tolerance =
+          std::max({0.25 * tolerance_ / unit, SupportPair<double>::rounding, share * open}),
       .most_iterations = most_iterations};
   const LastFrame<double> last{kept_, normal_};
   const GjkDistanceResult<double> found = gjk_distance(pair, goal, &last);
