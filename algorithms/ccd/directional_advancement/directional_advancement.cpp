@@ -10,6 +10,7 @@
 //             in time. Find the first time after t at which one falls below the separation and a
 //             quarter of the tolerance. Until then there is no contact.
 //          3. If that is 1 or later: a miss. Otherwise go on at that time.
+//          Before the first step, the axes are tried as directions.
 // Departs: as many queries at once as two vectors have lanes (8 with AVX2 and without, 16 with
 //          AVX-512); lanes are refilled as they end. A direction need not be right: the gaps prove the
 //          interval whatever it is.
@@ -51,9 +52,13 @@ class DirectionalAdvancement final : public Ccd {
 
   void solve(FeaturePair pair, std::span<const CcdQuery> queries,
              std::span<CcdOutcome> outcomes) override {
-    const LaneBatch batch{queries, outcomes, settings_.tolerance, settings_.separation,
-                          settings_.max_iterations.value_or(256)};
     const bool is_face = pair == FeaturePair::vertex_face;
+    const LaneBatch batch{queries,
+                          outcomes,
+                          settings_.tolerance,
+                          settings_.separation,
+                          settings_.max_iterations.value_or(256),
+                          is_face};
     switch (isa()) {
       case Isa::avx512:
         return is_face ? avx512::advance_all<true>(batch) : avx512::advance_all<false>(batch);
@@ -68,21 +73,48 @@ class DirectionalAdvancement final : public Ccd {
   CcdSettings settings_;
 };
 
+// Returns true if along one of the axes all vertices of the first feature are further than the threshold from all of
+// the second, on the same side at time 0 and at time 1.
+bool an_axis_parts(const ScaledEdges& edges, bool is_face, double threshold) {
+  using Vector = Eigen::Map<const Vec3d>;
+  // The second feature's extent from the first's.
+  Vec3d least = Vec3d::Constant(4), greatest = -least;
+  for (const double* at : {edges.at.data(), edges.at.data() + 9}) {
+    const Vector x(at), y(at + 3), z(at + 6);
+    if (is_face) {
+      least = least.cwiseMin(x.cwiseMin(y).cwiseMin(z));
+      greatest = greatest.cwiseMax(x.cwiseMax(y).cwiseMax(z));
+    } else {
+      least = least.cwiseMin(y.cwiseMin(z) - x.cwiseMax(0));
+      greatest = greatest.cwiseMax(y.cwiseMax(z) - x.cwiseMin(0));
+    }
+  }
+  return (least.array() >= threshold).any() || (greatest.array() <= -threshold).any();
+}
+
 }  // namespace
 
 bool load_lane(const CcdQuery& query, const LaneBatch& batch, LaneQuery& lane) {
-  if (!scale_edges(query.start, query.end, lane.edges)) {
+  const auto decided = [&](CcdAnswer answer, Status status, double free_before) {
     CcdOutcome& outcome = batch.outcomes[static_cast<std::size_t>(&query - batch.queries.data())];
     outcome = {};
-    outcome.status = Status::degenerate;
-    outcome.free_before = 0;
+    outcome.answer = answer;
+    outcome.status = status;
+    outcome.free_before = free_before;
+    outcome.iterations = 0;
     return false;
+  };
+  if (!scale_edges(query.start, query.end, lane.edges)) {
+    return decided(CcdAnswer::unknown, Status::degenerate, 0);
   }
   const double separation = batch.separation * lane.edges.scale;
   const double tolerance = batch.tolerance * lane.edges.scale;
   constexpr double relative_error = 8 * 0x1p-53;
   lane.threshold = separation * (1 + relative_error) + std::max(0.25 * tolerance, scaled_error);
   lane.near = (separation + tolerance) * (1 - relative_error) - scaled_error;
+  if (an_axis_parts(lane.edges, batch.is_face, lane.threshold)) {
+    return decided(CcdAnswer::miss, Status::ok, 1);
+  }
   return true;
 }
 

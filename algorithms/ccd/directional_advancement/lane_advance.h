@@ -22,9 +22,11 @@ struct LaneBatch {
   std::span<CcdOutcome> outcomes;
   double tolerance, separation;  // metres
   std::int32_t most_steps;
+  bool is_face;  // the queries are of a vertex and a face
 };
 
-// Returns false if the edges overflow.
+// Returns false if the query has its outcome: the edges overflow, or one of the axes parts the features at all
+// times.
 bool load_lane(const CcdQuery& query, const LaneBatch& batch, LaneQuery& lane);
 
 }  // namespace touchstone
