@@ -12,8 +12,8 @@
 namespace touchstone::measure {
 namespace {
 
-constexpr std::size_t bodies_a_block = 256;
-constexpr std::size_t pairs_a_block = 64;
+constexpr std::size_t bodies_a_block = 64;
+constexpr std::size_t pairs_a_block = 16;
 
 IndexPair in_order(std::uint32_t i, std::uint32_t j) {
   return i < j ? IndexPair{i, j} : IndexPair{j, i};
