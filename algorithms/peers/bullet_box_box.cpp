@@ -40,8 +40,9 @@ std::unique_ptr<NarrowPhase> make_box_box(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t encoding = nullptr, make_box_box = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

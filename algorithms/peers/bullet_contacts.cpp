@@ -151,8 +151,9 @@ std::unique_ptr<ContactManifold> make_hull_hull(const ManifoldSettings& settings
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t make_box_box = nullptr, make_hull_hull = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

@@ -76,8 +76,9 @@ std::unique_ptr<NarrowPhase> make_gjk_epa(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t encoding = nullptr, make_gjk_epa = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

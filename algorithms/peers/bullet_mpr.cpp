@@ -85,8 +85,9 @@ std::unique_ptr<NarrowPhase> make_mpr(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t encoding = nullptr, make_mpr = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

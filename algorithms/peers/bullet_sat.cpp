@@ -74,8 +74,9 @@ std::unique_ptr<NarrowPhase> make_sat(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t encoding = nullptr, make_sat = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 
