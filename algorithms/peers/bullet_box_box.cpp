@@ -5,7 +5,7 @@
 //          1e-5 in either build, so smaller gaps are reported as overlaps in double too.
 // Cost:    O(1).
 #include "algorithms/narrow_phase.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
 

@@ -9,7 +9,7 @@
 //          point moved by the depth, so they are not on the surfaces.
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btMprPenetration.h>
 

@@ -9,7 +9,7 @@
 //          the surfaces.
 // Cost:    O(E^2 V).
 #include "algorithms/narrow_phase.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 
