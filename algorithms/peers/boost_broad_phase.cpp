@@ -133,7 +133,8 @@ std::unique_ptr<BroadPhase> make(Executor&) { return std::make_unique<BoostRtree
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

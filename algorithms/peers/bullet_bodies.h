@@ -34,7 +34,7 @@
 #include <vector>
 
 #include "algorithms/narrow_phase.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 
 namespace touchstone::bullet {
 

@@ -5,7 +5,7 @@
 //          1e-5 in either build, so smaller gaps are reported as overlaps in double too.
 // Cost:    O(1).
 #include "algorithms/narrow_phase.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
 
@@ -40,8 +40,9 @@ std::unique_ptr<NarrowPhase> make_box_box(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t encoding = nullptr, make_box_box = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

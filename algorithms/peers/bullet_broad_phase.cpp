@@ -266,7 +266,8 @@ constexpr auto make_axis_sweep = make<AxisSweep>;
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_tree = nullptr, make_axis_sweep = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

@@ -15,7 +15,7 @@
 //          incremental, so the area kept depends on the order of the corners.
 // Cost:    O(n m) for faces of n and m corners; EPA.
 #include "algorithms/contact_manifold.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/CollisionDispatch/btBoxBoxCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
@@ -151,8 +151,9 @@ std::unique_ptr<ContactManifold> make_hull_hull(const ManifoldSettings& settings
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t make_box_box = nullptr, make_hull_hull = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

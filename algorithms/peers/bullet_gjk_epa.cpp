@@ -9,7 +9,7 @@
 //          horizon degenerates.
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
@@ -76,8 +76,9 @@ std::unique_ptr<NarrowPhase> make_gjk_epa(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t encoding = nullptr, make_gjk_epa = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

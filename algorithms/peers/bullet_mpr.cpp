@@ -9,7 +9,7 @@
 //          point moved by the depth, so they are not on the surfaces.
 // Cost:    support calls linear in the vertices.
 #include "algorithms/narrow_phase.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btMprPenetration.h>
 
@@ -85,8 +85,9 @@ std::unique_ptr<NarrowPhase> make_mpr(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t encoding = nullptr, make_mpr = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

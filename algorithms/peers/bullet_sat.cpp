@@ -9,7 +9,7 @@
 //          the surfaces.
 // Cost:    O(E^2 V).
 #include "algorithms/narrow_phase.h"
-#include "algorithms/peers/bullet_double.h"
+#include "algorithms/peers/bullet_double/bullet_double.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 
@@ -74,8 +74,9 @@ std::unique_ptr<NarrowPhase> make_sat(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t encoding = nullptr, make_sat = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

@@ -116,7 +116,8 @@ std::unique_ptr<BroadPhase> make(Executor&) { return std::make_unique<CgalBoxInt
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

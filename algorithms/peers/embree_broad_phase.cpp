@@ -233,7 +233,8 @@ constexpr auto make_refit = make<RTC_BUILD_QUALITY_REFIT>;
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_low = nullptr, make_refit = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

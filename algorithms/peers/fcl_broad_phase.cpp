@@ -239,9 +239,8 @@ constexpr auto make_spatial_hash = make<SpatialHash>;
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_naive = nullptr, make_ssap = nullptr, make_sap = nullptr,
-                         make_tree = nullptr, make_tree_array = nullptr,
-                         make_interval_tree = nullptr, make_spatial_hash = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

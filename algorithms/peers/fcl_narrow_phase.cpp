@@ -249,8 +249,8 @@ constexpr auto make_indep = make<fcl::detail::GJKSolver_indep>;
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t supports = nullptr, quaternion_encoding = nullptr,
-                         matrix_encoding = nullptr, make_libccd = nullptr, make_indep = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

@@ -272,8 +272,8 @@ constexpr auto make_mpr = make<Method::mpr>;
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t supports = nullptr, make_gjk = nullptr, make_epa = nullptr,
-                         make_mpr = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

@@ -205,7 +205,8 @@ std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings& settings) {
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t supports = nullptr, encoding = nullptr, make = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

@@ -164,7 +164,8 @@ constexpr auto make_sweep = make<Sweep>;
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_hash = nullptr, make_quadtree = nullptr, make_sweep = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

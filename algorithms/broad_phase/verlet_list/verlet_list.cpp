@@ -65,10 +65,10 @@ class VerletList final : public BroadPhase {
   void load(std::span<const Aabb> boxes) {
     if (is_ordered_) {
       fit(boxes);
-      const double spread = tree_.spread();
+      const double now = tree_.spread();
       // The negation makes a NaN, from bounds that overflow, rebuild the order.
-      if (spread <= most_spread * spread_) {
-        spread_ = std::min(spread, spread_);
+      if (now <= most_spread * spread_) {
+        spread_ = std::min(now, spread_);
         return;
       }
     }
@@ -233,7 +233,7 @@ Status VerletList::find_pairs(PairSink& sink) {
   const std::span<const PairBuffer> candidates = candidates_.chunks();
   const std::size_t escaped_tasks = block_count(escaped_.size(), escaped_a_task);
   sink.start(candidates.size() + escaped_tasks);
-  const auto test = [&](std::size_t task, int worker) {
+  const auto do_task = [&](std::size_t task, int worker) {
     PairBuffer& out = sink.chunk(task);
     if (task >= candidates.size()) {
       const std::size_t first = (task - candidates.size()) * escaped_a_task;
@@ -249,7 +249,7 @@ Status VerletList::find_pairs(PairSink& sink) {
       write_overlapping(boxes_, candidates[task].pairs(), stayed, out);
     }
   };
-  executor_.run(candidates.size() + escaped_tasks, std::cref(test));
+  executor_.run(candidates.size() + escaped_tasks, std::cref(do_task));
   pairs_ = sink.size();
   return Status::ok;
 }

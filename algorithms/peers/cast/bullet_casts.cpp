@@ -136,8 +136,9 @@ constexpr auto make_continuous = make_cast<Continuous>;
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t make_subsimplex = nullptr, make_gjk = nullptr, make_continuous = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

@@ -109,11 +109,8 @@ constexpr auto make_naive = make_fcl_cast<fcl::CCDC_NAIVE>;
 }  // namespace
 }  // namespace touchstone
 #else
-namespace touchstone {
-namespace {
-constexpr std::nullptr_t make_advancement = nullptr, make_naive = nullptr;
-}  // namespace
-}  // namespace touchstone
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

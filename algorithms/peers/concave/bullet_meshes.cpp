@@ -239,8 +239,9 @@ std::unique_ptr<ConcavePhase> make_tree(const ConcaveSettings& settings) {
 }  // namespace
 }  // namespace touchstone::bullet
 #else
+#include "algorithms/peers/not_built.h"
 namespace touchstone::bullet {
-constexpr std::nullptr_t make_gimpact = nullptr, make_tree = nullptr;
+using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

@@ -143,7 +143,8 @@ std::unique_ptr<ConcavePhase> make_meshes(const ConcaveSettings&) {
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_meshes = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

@@ -153,7 +153,8 @@ const auto make_kdop = make_of<fcl::KDOP<double, 16>>;
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_obbrss = nullptr, make_aabb = nullptr, make_kdop = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

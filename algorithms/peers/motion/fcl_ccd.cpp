@@ -55,9 +55,8 @@ std::unique_ptr<Ccd> make_cubic(const CcdSettings& settings) {
 }  // namespace
 }  // namespace touchstone
 #else
-namespace touchstone {
-constexpr std::nullptr_t make_cubic = nullptr;
-}  // namespace touchstone
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

@@ -109,7 +109,8 @@ std::unique_ptr<PointQuery> make_cgal_points() { return std::make_unique<CgalPoi
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_cgal_points = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

@@ -117,7 +117,8 @@ std::unique_ptr<PointQuery> make_embree_points() { return std::make_unique<Embre
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_embree_points = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

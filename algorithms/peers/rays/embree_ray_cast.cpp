@@ -155,7 +155,8 @@ constexpr auto make_packets = make_cast<RayForm::packets>;
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_plain = nullptr, make_robust = nullptr, make_packets = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

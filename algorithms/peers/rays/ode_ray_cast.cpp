@@ -111,7 +111,8 @@ std::unique_ptr<RayCast> make_cast(const RayCastSettings&) {
 }  // namespace
 }  // namespace touchstone
 #else
-constexpr std::nullptr_t make_cast = nullptr;
+#include "algorithms/peers/not_built.h"
+using namespace touchstone::not_built;
 #endif
 
 namespace touchstone::entries {

@@ -13,7 +13,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 
-namespace touchstone {
+namespace touchstone::certified_contact_test {
 namespace {
 
 using namespace test;
@@ -260,4 +260,4 @@ TEST(CertifiedContact, DepthsAreProvenWithoutTheOracle) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::certified_contact_test

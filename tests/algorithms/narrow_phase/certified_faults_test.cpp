@@ -14,7 +14,7 @@
 #include "algorithms/oracle/oracle.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 
-namespace touchstone {
+namespace touchstone::certified_faults_test {
 namespace {
 
 using namespace test;
@@ -216,4 +216,4 @@ TEST(CertifiedFaults, ATriangleThroughTheOriginIsNotBehindIt) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::certified_faults_test

@@ -11,7 +11,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 
-namespace touchstone {
+namespace touchstone::certified_test {
 namespace {
 
 using namespace test;
@@ -229,4 +229,4 @@ TEST(Certified, DirectionsThatAreNearlyAlongAnAxis) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::certified_test

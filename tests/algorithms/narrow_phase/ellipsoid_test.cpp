@@ -9,7 +9,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 
-namespace touchstone {
+namespace touchstone::ellipsoid_test {
 namespace {
 
 using namespace test;
@@ -229,4 +229,4 @@ INSTANTIATE_TEST_SUITE_P(Scalars, EllipsoidPairs,
                          });
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::ellipsoid_test

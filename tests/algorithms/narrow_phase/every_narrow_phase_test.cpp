@@ -11,7 +11,7 @@
 #include "tests/algorithms/narrow_phase/brute_force.h"
 #include "tests/algorithms/rotation_between.h"
 
-namespace touchstone {
+namespace touchstone::every_narrow_phase_test {
 namespace {
 
 using namespace test;
@@ -427,4 +427,4 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryNarrowPhase, testing::ValuesIn(subjects(
                          });
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::every_narrow_phase_test

@@ -14,7 +14,7 @@
 #include "tests/algorithms/random.h"
 #include "tests/algorithms/shapes.h"
 
-namespace touchstone {
+namespace touchstone::exact_contact_test {
 namespace {
 
 using namespace reference;
@@ -108,4 +108,4 @@ TEST(ExactContact, BoxesOnAGrid) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::exact_contact_test

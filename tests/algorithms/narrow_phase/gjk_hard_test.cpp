@@ -19,7 +19,7 @@
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/rotation_between.h"
 
-namespace touchstone {
+namespace touchstone::gjk_hard_test {
 namespace {
 
 using namespace reference;
@@ -463,4 +463,4 @@ TEST(GjkCollected, EveryCaseIsRight) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::gjk_hard_test

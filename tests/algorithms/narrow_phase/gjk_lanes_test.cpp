@@ -15,7 +15,7 @@
 #include "tests/algorithms/narrow_phase/hard_pairs.h"
 #include "tests/algorithms/one_in.h"
 
-namespace touchstone {
+namespace touchstone::gjk_lanes_test {
 namespace {
 
 using namespace test;
@@ -282,4 +282,4 @@ TEST(GjkLanes, AnswerWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::gjk_lanes_test

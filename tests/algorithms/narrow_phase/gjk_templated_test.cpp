@@ -12,7 +12,7 @@
 #include "tests/algorithms/narrow_phase/hard_pairs.h"
 #include "tests/algorithms/one_in.h"
 
-namespace touchstone {
+namespace touchstone::gjk_templated_test {
 namespace {
 
 using namespace test;
@@ -187,4 +187,4 @@ TEST(GjkTemplated, HasTheBitsOfGjkAtEveryLevelAndSetting) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::gjk_templated_test

@@ -12,7 +12,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/polytope_reference.h"
 
-namespace touchstone {
+namespace touchstone::gjk_test {
 namespace {
 
 using namespace reference;
@@ -279,4 +279,4 @@ TEST(GjkByHand, DepthIsTheLeastOfManyDirections) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::gjk_test

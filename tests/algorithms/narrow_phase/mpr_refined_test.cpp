@@ -10,7 +10,7 @@
 #include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/algorithms/narrow_phase/brute_force.h"
 
-namespace touchstone {
+namespace touchstone::mpr_refined_test {
 namespace {
 
 using namespace test;
@@ -282,4 +282,4 @@ INSTANTIATE_TEST_SUITE_P(Scalars, MprRefined,
                          });
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::mpr_refined_test

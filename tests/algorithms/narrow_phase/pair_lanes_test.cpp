@@ -17,7 +17,7 @@
 #include "tests/algorithms/narrow_phase/hard_pairs.h"
 #include "tests/algorithms/one_in.h"
 
-namespace touchstone {
+namespace touchstone::pair_lanes_test {
 namespace {
 
 using namespace test;
@@ -232,4 +232,4 @@ TEST(PairLanes, LeaveFewPairsOfBoxes) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::pair_lanes_test

@@ -8,7 +8,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/any_pairs.h"
 
-namespace touchstone {
+namespace touchstone::pair_query_test {
 namespace {
 
 using namespace test;
@@ -115,4 +115,4 @@ TEST(PairQuery, RemembersAPair) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::pair_query_test

@@ -15,7 +15,7 @@
 #include "tests/algorithms/narrow_phase/hard_pairs.h"
 #include "tests/algorithms/one_in.h"
 
-namespace touchstone {
+namespace touchstone::round_bodies_test {
 namespace {
 
 using namespace test;
@@ -281,4 +281,4 @@ TEST(RoundBodies, StandOnEachOther) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::round_bodies_test

@@ -9,7 +9,7 @@
 #include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/algorithms/narrow_phase/brute_force.h"
 
-namespace touchstone {
+namespace touchstone::sat_test {
 namespace {
 
 using namespace test;
@@ -361,4 +361,4 @@ TEST(Sat, TakesMatricesLiterally) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::sat_test

@@ -8,7 +8,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/any_pairs.h"
 
-namespace touchstone {
+namespace touchstone::signed_test {
 namespace {
 
 using namespace test;
@@ -255,4 +255,4 @@ TEST(Tolerance, IsWhatTheEntrySays) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::signed_test

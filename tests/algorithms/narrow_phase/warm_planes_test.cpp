@@ -20,7 +20,7 @@
 #include "tests/algorithms/random.h"
 #include "tests/algorithms/shapes.h"
 
-namespace touchstone {
+namespace touchstone::warm_planes_test {
 namespace {
 
 using namespace reference;
@@ -268,4 +268,4 @@ TEST(WarmPlanes, BatchesAreAsRightAsTheExactAnswer) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::warm_planes_test

@@ -17,7 +17,7 @@
 #include "tests/algorithms/random.h"
 #include "tests/algorithms/shapes.h"
 
-namespace touchstone {
+namespace touchstone::warm_start_test {
 namespace {
 
 using namespace reference;
@@ -303,4 +303,4 @@ TEST(WarmStart, IsLessWorkWhereLittleMoves) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::warm_start_test

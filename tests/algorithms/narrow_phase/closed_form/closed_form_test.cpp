@@ -7,7 +7,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 
-namespace touchstone {
+namespace touchstone::closed_form_test {
 namespace {
 
 using namespace test;
@@ -116,4 +116,4 @@ TEST(ClosedForm, SaysExactlyWhatItTakes) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::closed_form_test

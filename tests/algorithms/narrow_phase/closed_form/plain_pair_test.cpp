@@ -14,7 +14,7 @@
 #include "tests/algorithms/random.h"
 #include "tests/algorithms/shapes.h"
 
-namespace touchstone {
+namespace touchstone::plain_pair_test {
 namespace {
 
 using reference::make_box;
@@ -211,4 +211,4 @@ TEST(PlainBoxes, AreRightAtEveryDistance) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::plain_pair_test

@@ -10,7 +10,7 @@
 
 #include "tests/algorithms/random.h"
 
-namespace touchstone {
+namespace touchstone::bitset_hull_test {
 namespace {
 
 // A surface with its points; a face that is no more has no corners here.
@@ -137,4 +137,4 @@ TEST(BitsetHull, RefusesWhatIsNoDisc) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::bitset_hull_test

@@ -13,7 +13,7 @@
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 
-namespace touchstone {
+namespace touchstone::rim_proof_test {
 namespace {
 
 constexpr std::size_t most_points = 60;
@@ -77,4 +77,4 @@ TEST(RimProof, KeepsWhatIsProven) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::rim_proof_test

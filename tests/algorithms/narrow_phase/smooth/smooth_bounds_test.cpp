@@ -12,7 +12,7 @@
 #include "tests/algorithms/narrow_phase/hard_pairs.h"
 #include "tests/algorithms/one_in.h"
 
-namespace touchstone {
+namespace touchstone::smooth_bounds_test {
 namespace {
 
 using namespace test;
@@ -80,4 +80,4 @@ TEST(SmoothBounds, MeetThoseOfGjk) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::smooth_bounds_test
