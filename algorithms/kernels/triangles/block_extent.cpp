@@ -1,8 +1,6 @@
 // Extents of blocks, and the choice of the instruction level.
 #include "algorithms/kernels/triangles/block_extent.h"
 
-#include <array>
-
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
@@ -22,6 +20,15 @@ void ends_of(const TriangleBlock& block, const Vec3d& way, BlockEnds& ends) {
     case Isa::baseline: break;
   }
   baseline::ends_of_block(block, way, ends);
+}
+
+void ends_along(const TriangleBlock& block, const Mat3d& ways, std::array<BlockEnds, 3>& ends) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::ends_along_rows(block, ways, ends);
+    case Isa::avx2: return avx2::ends_along_rows(block, ways, ends);
+    case Isa::baseline: break;
+  }
+  baseline::ends_along_rows(block, ways, ends);
 }
 
 }  // namespace
@@ -47,6 +54,30 @@ BlockExtent extent_along_normal(const TriangleBlock& block) {
     sum += (block.corner(lane, 1) - corner).cross(block.corner(lane, 2) - corner);
   }
   return extent_along(block, sum.stableNormalized());
+}
+
+BlockBox box_along(const TriangleBlock& block, const Mat3d& ways) {
+  std::array<BlockEnds, 3> ends;
+  ends_along(block, ways, ends);
+  BlockBox box;
+  double sum = 0;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto &low = ends[row].low, &high = ends[row].high;
+    double least = low[0], greatest = high[0];
+    for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
+      least = low[lane] < least ? low[lane] : least;
+      greatest = high[lane] > greatest ? high[lane] : greatest;
+      sum += low[lane];
+    }
+    box.low[row] = least;
+    box.high[row] = greatest;
+  }
+  const double nothing = sum - sum;  // NaN if anything is not finite
+  for (std::size_t row = 0; row < 3; ++row) {
+    box.low[row] += nothing;
+    box.high[row] += nothing;
+  }
+  return box;
 }
 
 unsigned reaching(const TriangleBlock& block, const BlockExtent& extent, double slack) {
