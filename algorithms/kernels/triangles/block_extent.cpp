@@ -1,6 +1,9 @@
 // Extents of blocks, and the choice of the instruction level.
 #include "algorithms/kernels/triangles/block_extent.h"
 
+#include <tuple>
+#include <utility>
+
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
@@ -31,20 +34,25 @@ void ends_along(const TriangleBlock& block, const Mat3d& ways, std::array<BlockE
   baseline::ends_along_rows(block, ways, ends);
 }
 
+// The ends of all triangles; NaN if one is not finite. Without branches, which nothing foresees.
+std::pair<double, double> ends_of_all(const BlockEnds& ends) {
+  double low = ends.low[0], high = ends.high[0], sum = 0;
+  for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
+    low = ends.low[lane] < low ? ends.low[lane] : low;
+    high = ends.high[lane] > high ? ends.high[lane] : high;
+    sum += ends.low[lane];
+  }
+  const double nothing = sum - sum;
+  return {low + nothing, high + nothing};
+}
+
 }  // namespace
 
 BlockExtent extent_along(const TriangleBlock& block, const Vec3d& way) {
   BlockEnds ends;
   ends_of(block, way, ends);
-  BlockExtent extent = {way, ends.low[0], ends.high[0]};
-  for (std::size_t lane = 1; lane < TriangleBlock::size; ++lane) {
-    // NaN stays.
-    if (!(ends.low[lane] >= extent.low) && extent.low == extent.low) extent.low = ends.low[lane];
-    if (!(ends.high[lane] <= extent.high) && extent.high == extent.high) {
-      extent.high = ends.high[lane];
-    }
-  }
-  return extent;
+  const auto [low, high] = ends_of_all(ends);
+  return {way, low, high};
 }
 
 BlockExtent extent_along_normal(const TriangleBlock& block) {
@@ -60,22 +68,8 @@ BlockBox box_along(const TriangleBlock& block, const Mat3d& ways) {
   std::array<BlockEnds, 3> ends;
   ends_along(block, ways, ends);
   BlockBox box;
-  double sum = 0;
   for (std::size_t row = 0; row < 3; ++row) {
-    const auto &low = ends[row].low, &high = ends[row].high;
-    double least = low[0], greatest = high[0];
-    for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
-      least = low[lane] < least ? low[lane] : least;
-      greatest = high[lane] > greatest ? high[lane] : greatest;
-      sum += low[lane];
-    }
-    box.low[row] = least;
-    box.high[row] = greatest;
-  }
-  const double nothing = sum - sum;  // NaN if anything is not finite
-  for (std::size_t row = 0; row < 3; ++row) {
-    box.low[row] += nothing;
-    box.high[row] += nothing;
+    std::tie(box.low[row], box.high[row]) = ends_of_all(ends[row]);
   }
   return box;
 }

@@ -21,7 +21,7 @@ BlockExtent extent_along(const TriangleBlock& block, const Vec3d& way);
 // Along the sum of the triangles' normals; the way is zero if that is zero.
 BlockExtent extent_along_normal(const TriangleBlock& block);
 
-// The ends of a block along each row of a matrix (metres); NaN along all if a corner is not finite.
+// The ends of a block along each row of a matrix (metres); NaN if a corner is not finite.
 struct BlockBox {
   std::array<double, 3> low, high;
 };
