@@ -61,7 +61,9 @@ class PartPairs final : public ConcavePhase {
     trees_->clear();
     for (const ConcaveBody& body : bodies) {
       bodies_.emplace_back(body);
-      if (search_) trees_->push_back(mesh_tree(bodies_.back()));
+      if (!search_) continue;
+      trees_->push_back(mesh_tree(bodies_.back()));
+      if (body.mesh) bodies_.back().drop_boxes();
     }
     if (search_) {
       mid_phase_ = nullptr;
@@ -135,7 +137,13 @@ class PartPairs final : public ConcavePhase {
   }
 
   void fill_mid_phase() {
-    for (const BoundBody& body : bodies_) mid_phase_->add(body.boxes);
+    for (const BoundBody& body : bodies_) {
+      if (body.mesh() != nullptr && body.boxes.empty()) {
+        mid_phase_->add(body.made_boxes());
+      } else {
+        mid_phase_->add(body.boxes);
+      }
+    }
   }
 
   // Asks the narrow phase about the pairs that wait. Returns false if no more is wanted.
