@@ -14,8 +14,9 @@
 //          4. Where no parts meet and a body is solid, exact winding numbers tell whether a piece of
 //             the other lies inside (interior).
 //          5. distance: a first descent of the trees to a pair of leaves that is near, then the others
-//             depth first, with bounds in lanes; of their triangles those are measured whose gaps, also
-//             in lanes, leave them near (part_distance).
+//             depth first, with bounds in lanes: of boxes in both bodies' frames, and along the way of the
+//             nearest points; of their triangles those are measured whose gaps, also in lanes, leave them
+//             near (part_distance).
 //          6. measure: the narrow phase gives each pair's depth and normal. Where these are to be welded,
 //             a normal that the mesh around does not support gives way to the face's (welding).
 // Departs: `moller` and `guigue-devillers` decide each pair of triangles in doubles, as their papers
