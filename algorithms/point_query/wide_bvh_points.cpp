@@ -6,8 +6,10 @@
 //          2. `closest` walks the nodes from near to far while a box is nearer than the best point. Of a leaf's
 //             eight triangles, floats find near points, and planes across the way to them that prove how far
 //             the triangles are; what is left is decided in doubles (nearest_walk).
-//          3. `side` walks the triangles above the point, and counts those that turn up less those that
-//             turn down, by signs that are filtered in doubles and exact where that decides nothing.
+//          3. `side` knows points outside of the mesh's box. For others it counts the triangles above the
+//             point that turn up less those that turn down: by floats where they are certain, by signs that
+//             are filtered in doubles where they are not, and exactly where that decides nothing
+//             (winding_walk, winding_query).
 // Fails:   the distance is that of a rounded point, off by up to 4e-15 of the coordinates' size. The
 //          status of `side` is `degenerate` where numbers beyond 2^-120 or 2^120 are in doubt.
 // Cost:    O(log n) a point near the surface; more where much of it is equally far.
@@ -27,7 +29,14 @@ using ray_tree::RayMesh;
 
 class WideBvhPoints final : public PointQuery {
  public:
-  void bind(const TriangleMesh& mesh) override { mesh_.emplace(mesh, Precision::float64); }
+  void bind(const TriangleMesh& mesh) override {
+    mesh_.emplace(mesh, Precision::float64);
+    low_ = high_ = mesh.vertices.empty() ? Vec3d(Vec3d::Zero()) : mesh.vertices.front();
+    for (const Vec3d& vertex : mesh.vertices) {
+      low_ = low_.cwiseMin(vertex);
+      high_ = high_.cwiseMax(vertex);
+    }
+  }
 
   void query(PointTask task, std::span<const Vec3d> points,
              std::span<PointAnswer> answers) override {
@@ -45,12 +54,17 @@ class WideBvhPoints final : public PointQuery {
   }
 
  private:
-  // Points that are finite, by the triangles above them, block by block.
+  // Points that are finite: those outside of the mesh's box at once, and others by the triangles above
+  // them, block by block.
   void find_sides(std::span<const Vec3d> points, std::span<PointAnswer> answers) const {
     std::vector<WindingQuery> queries;
     std::vector<PointAnswer*> asked;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (answers[i].status == Status::ok) {
+      const bool is_outside =
+          (points[i].array() < low_.array()).any() || (points[i].array() > high_.array()).any();
+      if (answers[i].status == Status::ok && is_outside) {
+        answers[i].side = PointSide::outside;
+      } else if (answers[i].status == Status::ok) {
         queries.emplace_back(points[i]);
         asked.push_back(&answers[i]);
       }
@@ -73,6 +87,7 @@ class WideBvhPoints final : public PointQuery {
   }
 
   std::optional<RayMesh> mesh_;
+  Vec3d low_ = Vec3d::Zero(), high_ = Vec3d::Zero();  // of the box around its vertices
 };
 
 }  // namespace

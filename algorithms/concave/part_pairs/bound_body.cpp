@@ -80,8 +80,7 @@ std::vector<std::uint32_t> pieces_of(const TriangleMesh& mesh) {
 
 BoundBody::BoundBody(const ConcaveBody& body) : given(&body) {
   if (body.mesh) {
-    boxes.reserve(body.part_count());
-    for (std::uint32_t i = 0; i < body.part_count(); ++i) boxes.push_back(box_of(corners(i)));
+    boxes = made_boxes();
     for (const Vec3d& vertex : body.mesh->vertices) {
       reach = std::max(reach, vertex.cwiseAbs().maxCoeff());
     }
@@ -89,6 +88,13 @@ BoundBody::BoundBody(const ConcaveBody& body) : given(&body) {
     return;
   }
   fill_boxes();
+}
+
+std::vector<Aabb> BoundBody::made_boxes() const {
+  std::vector<Aabb> made;
+  made.reserve(given->part_count());
+  for (std::uint32_t i = 0; i < given->part_count(); ++i) made.push_back(box_of(corners(i)));
+  return made;
 }
 
 void BoundBody::fill_boxes() {

@@ -19,8 +19,12 @@ struct BoundBody {
   // enclose. Returns false if they do already, as for each true rotation.
   bool enclose(const Mat3d& rotation);
 
+  // Drops the boxes of a mesh, which `made_boxes` makes again.
+  void drop_boxes() { boxes = std::vector<Aabb>(); }
+  std::vector<Aabb> made_boxes() const;
+
   const ConcaveBody* given;
-  std::vector<Aabb> boxes;  // of the parts, in body coordinates
+  std::vector<Aabb> boxes;  // of the parts, in body coordinates; none if they were dropped
   // At least the greatest magnitude of a coordinate of the body's points, apart from those of
   // half-spaces (metres).
   double reach = 0;

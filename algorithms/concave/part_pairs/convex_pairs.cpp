@@ -105,7 +105,8 @@ std::span<const Outcome> ConvexPairs::solve(Task task, const BoundBody& a, const
   first_.clear();
   second_.clear();
   const auto grow = [](std::vector<std::uint32_t>& numbers, const BoundBody& body) {
-    if (numbers.size() < body.boxes.size()) numbers.resize(body.boxes.size(), none);
+    const std::size_t parts = body.given->part_count();
+    if (numbers.size() < parts) numbers.resize(parts, none);
   };
   grow(number_in_a_, a);
   grow(number_in_b_, b);

@@ -11,6 +11,13 @@
 namespace touchstone {
 namespace {
 
+// The bits of all triangles' pairs, eight for each of the first block's.
+std::uint64_t joined(const std::array<std::uint8_t, TriangleBlock::size>& bits) {
+  std::uint64_t all = 0;
+  for (std::size_t i = 0; i < bits.size(); ++i) all |= std::uint64_t{bits[i]} << 8 * i;
+  return all;
+}
+
 class FusedPairs final : public MeshPairs {
  public:
   explicit FusedPairs(std::shared_ptr<const MeshTrees> trees) : trees_(std::move(trees)) {}
@@ -72,16 +79,15 @@ class FusedPairs final : public MeshPairs {
       }
       std::array<IndexPair, TriangleBlock::size * TriangleBlock::size> found;
       std::size_t count = 0;
-      for (std::size_t i = 0; i < parts_a.size(); ++i) {
-        for (unsigned bits = signs.yes[i] | signs.open[i]; bits != 0; bits &= bits - 1) {
-          const auto j = static_cast<std::size_t>(std::countr_zero(bits));
-          const IndexPair pair = {parts_a[i], parts_b[j]};
-          if ((signs.yes[i] >> j & 1) == 0 &&
-              !share_a_point(body_a.corners(pair.a), pose_a, body_b.corners(pair.b), pose_b)) {
-            continue;
-          }
-          found[count++] = pair;
+      const std::uint64_t sure = joined(signs.yes);
+      for (std::uint64_t bits = sure | joined(signs.open); bits != 0; bits &= bits - 1) {
+        const auto at = static_cast<std::size_t>(std::countr_zero(bits));
+        const IndexPair pair = {parts_a[at / 8], parts_b[at % 8]};
+        if ((sure >> at & 1) == 0 &&
+            !share_a_point(body_a.corners(pair.a), pose_a, body_b.corners(pair.b), pose_b)) {
+          continue;
         }
+        found[count++] = pair;
       }
       return count == 0 || take({found.data(), count});
     }

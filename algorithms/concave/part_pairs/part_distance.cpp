@@ -20,6 +20,8 @@
 namespace touchstone {
 namespace {
 
+// The least cosine of a way and the frame's axis, which is turned again below.
+constexpr double nearly_along = 0.999;
 constexpr double none_yet = std::numeric_limits<double>::infinity();
 
 // The frame's greatest coordinate.
@@ -53,6 +55,11 @@ struct Search {
   double upper = none_yet, lower = none_yet;  // of what was visited
   Vec3d on_a = Vec3d::Zero(), on_b = Vec3d::Zero();
   Vec3d way = Vec3d::Zero();  // of the nearest points; a unit vector, or zero
+  // The world, turned so that the way of some points that were nearest is its first axis.
+  CommonFrame turned = frame;
+  DescentFrame along = {};
+  Mat3d axes = Mat3d::Zero();
+  std::uint32_t turns = 0;
 
   void visit_meshes(std::uint32_t leaf_a, std::uint32_t leaf_b) {
     const auto count_a = static_cast<unsigned>(tree_a.tree.leaf(leaf_a).size());
@@ -142,8 +149,34 @@ struct Search {
     } else {
       visit_parts(tree_a.tree.leaf(leaf_a), tree_b.tree.leaf(leaf_b));
     }
-    const auto part = [&](int k) { return static_cast<float>(way[k]); };
-    return {upper, {part(0), part(1), part(2)}};
+    turn();
+    return {upper, turns > 0 ? &along : nullptr, turns};
+  }
+
+  // Turns the frame along the way unless it nearly is.
+  void turn() {
+    if (!(way.squaredNorm() > 0.5)) return;
+    if (turns > 0 && way.dot(axes.row(0)) > nearly_along) return;
+    const Vec3d across = way.unitOrthogonal();
+    axes << way.transpose(), across.transpose(), way.cross(across).transpose();
+    turned.a.rotation = axes * frame.a.rotation;
+    turned.b.rotation = axes * frame.b.rotation;
+    turned.b.translation = axes * frame.b.translation;
+    turned.error = 2 * frame.error;  // a turn makes a coordinate of three
+    along = descent_frame(turned, a.reach, b.reach);
+    ++turns;
+  }
+
+  LeafBox measure(bool of_b, std::uint32_t leaf) const {
+    const Pose& pose = of_b ? turned.b : turned.a;
+    const BlockBox ends = box_along((of_b ? tree_b : tree_a).blocks[leaf], pose.rotation);
+    LeafBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double middle = (ends.low[k] + ends.high[k]) / 2;
+      box.centre[k] = static_cast<float>(middle + pose.translation[static_cast<int>(k)]);
+      box.half[k] = static_cast<float>((ends.high[k] - ends.low[k]) / 2);
+    }
+    return box;
   }
 };
 
@@ -179,16 +212,22 @@ void PartDistance::measure(const PlacedConcave& a, const PlacedConcave& b,
   Search search{first,       second, tree_of(a.body), tree_of(b.body),
                 a,           b,      frame,           8 * (frame.error + 0x1p-51 * far),
                 convex_pairs};
-  const DescentFrame world = descent_frame(frame, first.reach, second.reach);
   std::vector<NearestFrame> frames;
   add_frame(a.pose, first.reach, b.pose, second.reach, false, frames);
   add_frame(b.pose, second.reach, a.pose, first.reach, true, frames);
-  if (frames.empty()) frames.push_back({world, false, 1});
+  if (frames.empty()) {
+    frames.push_back({descent_frame(frame, first.reach, second.reach), false, 1});
+  }
+  const bool both_are_meshes = first.mesh() != nullptr && second.mesh() != nullptr;
   nearest_.run(
-      search.tree_a.tree, search.tree_b.tree, world, frames,
+      search.tree_a.tree, search.tree_b.tree, frames,
       [](void* context, std::uint32_t leaf_a, std::uint32_t leaf_b) {
         return static_cast<Search*>(context)->visit(leaf_a, leaf_b);
       },
+      both_are_meshes
+          ? [](void* context, bool of_b,
+               std::uint32_t leaf) { return static_cast<Search*>(context)->measure(of_b, leaf); }
+          : WideNearest::Measure{nullptr},
       &search);
   if (!(search.upper < none_yet)) return;
   outcome.upper = search.upper;

@@ -14,8 +14,9 @@
 //          4. Where no parts meet and a body is solid, exact winding numbers tell whether a piece of
 //             the other lies inside (interior).
 //          5. distance: a first descent of the trees to a pair of leaves that is near, then the others
-//             depth first, with bounds in lanes; of their triangles those are measured whose gaps, also
-//             in lanes, leave them near (part_distance).
+//             depth first, with bounds in lanes: of boxes in both bodies' frames, and along the way of the
+//             nearest points; of their triangles those are measured whose gaps, also in lanes, leave them
+//             near (part_distance).
 //          6. measure: the narrow phase gives each pair's depth and normal. Where these are to be welded,
 //             a normal that the mesh around does not support gives way to the face's (welding).
 // Departs: `moller` and `guigue-devillers` decide each pair of triangles in doubles, as their papers
@@ -61,7 +62,9 @@ class PartPairs final : public ConcavePhase {
     trees_->clear();
     for (const ConcaveBody& body : bodies) {
       bodies_.emplace_back(body);
-      if (search_) trees_->push_back(mesh_tree(bodies_.back()));
+      if (!search_) continue;
+      trees_->push_back(mesh_tree(bodies_.back()));
+      if (body.mesh) bodies_.back().drop_boxes();
     }
     if (search_) {
       mid_phase_ = nullptr;
@@ -135,7 +138,13 @@ class PartPairs final : public ConcavePhase {
   }
 
   void fill_mid_phase() {
-    for (const BoundBody& body : bodies_) mid_phase_->add(body.boxes);
+    for (const BoundBody& body : bodies_) {
+      if (body.mesh() != nullptr && body.boxes.empty()) {
+        mid_phase_->add(body.made_boxes());
+      } else {
+        mid_phase_->add(body.boxes);
+      }
+    }
   }
 
   // Asks the narrow phase about the pairs that wait. Returns false if no more is wanted.

@@ -7,11 +7,13 @@
 //
 // A first descent takes the nearest pair of children each time, so that a distance and a way are known
 // before pairs are collected; the search is depth first then, the nearest of a node's pairs first. Bounds
-// are those of boxes in several frames, and of their ends along the known way.
+// are those of boxes in several frames, and in one of them that lies along the known way, in which leaves
+// have boxes of what they hold.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,12 +21,19 @@
 
 namespace touchstone {
 
-// The least distance that is known (metres), and the unit vector from a's nearest point to b's, in
-// the frame: bodies that are near each other elsewhere too mostly are along about that way, so that
-// gaps along it bound more than those of boxes. Zero if there is none yet.
+// The least distance that is known (metres), and a frame with an axis along about the way of the nearest
+// points, whose lengths are those of the world: bodies that are near each other elsewhere too mostly are
+// along about that way, and surfaces lie across it, so that boxes in that frame are thin. Null if there is
+// none yet. `turns` is the number of such frames so far, of which this is the last.
 struct NearestKnown {
   double distance;
-  std::array<float, 3> way;
+  const DescentFrame* along;
+  std::uint32_t turns;
+};
+
+// A box, of one of both bodies.
+struct LeafBox {
+  std::array<float, 3> centre, half;
 };
 
 // A frame in which boxes are compared: its lengths times `factor` are at most those of the world.
@@ -38,12 +47,15 @@ class WideNearest {
  public:
   // Returns what is known now.
   using Visit = NearestKnown (*)(void* context, std::uint32_t leaf_a, std::uint32_t leaf_b);
+  // Returns a box around what a leaf holds in the last frame along the way, off by less than the frame's
+  // slack.
+  using Measure = LeafBox (*)(void* context, bool of_b, std::uint32_t leaf);
 
   // Calls `visit` for every pair of leaves but those whose boxes are at least as far apart as the
-  // least distance known, or their ends along the way; one pair twice. `world` has the lengths of
-  // the world, and is that of the way. There is at least one other frame, which may be `world`.
-  void run(const WideBvh& a, const WideBvh& b, const DescentFrame& world,
-           std::span<const NearestFrame> frames, Visit visit, void* context);
+  // least distance known; one pair twice. There are one or two frames. If `measure` is null, boxes of
+  // leaves are those of the tree.
+  void run(const WideBvh& a, const WideBvh& b, std::span<const NearestFrame> frames, Visit visit,
+           Measure measure, void* context);
 
  private:
   // Children of two nodes: a bit for each child that is meant. One of each if both are leaves.
@@ -53,8 +65,21 @@ class WideNearest {
     std::uint8_t lanes_a, lanes_b;
     std::uint32_t a, b;
   };
+  // The children of a node in a frame along the way, and the box around all of them.
+  struct Along {
+    std::uint64_t turn = 0;  // of the frame; none has 0
+    std::uint32_t node = 0;
+    unsigned lanes = 0;  // of children that are not empty
+    std::array<float, 3> low, high;
+    NodeBoxes boxes;
+  };
+  // What was seen lately: a node has one place.
+  using AlongCache = std::array<Along, 128>;
   struct Search;
+
   std::vector<Open> open_;  // a stack
+  std::unique_ptr<std::array<AlongCache, 2>> along_;
+  std::uint64_t turns_ = 0;  // of all runs before
 };
 
 }  // namespace touchstone

@@ -1,24 +1,5 @@
 // The loops of the search for the nearest leaves, once for each level of vector instructions.
 
-// Where the children of a node begin along the way; NaN of boundless boxes.
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void begin_of_node(const WideNode& node,
-                                                               const std::array<float, 3>& way,
-                                                               std::array<float, fan>& begin) {
-  using Lanes = Simd<float>;
-  using Vector = typename Lanes::Vector;
-  for (std::size_t at = 0; at < fan; at += Lanes::width) {
-    Vector sum = Lanes::broadcast(0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector along = Lanes::broadcast(way[k]);
-      const Vector low = along * Lanes::load(&node.planes[k][at]);
-      const Vector high = along * Lanes::load(&node.planes[3 + k][at]);
-      const Vector both = low + high;
-      sum = sum + (Lanes::min(low, high) + (both - both));
-    }
-    Lanes::store(&begin[at], sum);
-  }
-}
-
 // Raises the bounds on the distances of box i of a and the boxes of b to those of their gaps along the
 // axes of the frame, in which lengths are at most 1 / factor of the true ones.
 TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void raise_by_boxes(const NodeBoxes& a, std::size_t i,
@@ -48,23 +29,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void raise_by_boxes(const NodeBoxes&
   }
 }
 
-// Raises them to the gaps between a's end along the way and where b's boxes begin. Returns the bits of
-// those that are below `upper`.
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned raise_along(
-    float end, const std::array<float, fan>& begin, float shift, float factor, float upper,
-    std::array<float, fan>& bound) {
+// Returns the bits of the bounds that are below `upper`.
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned bounds_below(
+    float upper, const std::array<float, fan>& bound) {
   using Lanes = Simd<float>;
-  using Vector = typename Lanes::Vector;
-  const Vector most = Lanes::broadcast(std::numeric_limits<float>::max());
   unsigned near = 0;
   for (std::size_t at = 0; at < fan; at += Lanes::width) {
-    const Vector known = Lanes::load(&bound[at]);
-    const Vector gap = (Lanes::load(&begin[at]) - Lanes::broadcast(end) + Lanes::broadcast(shift)) *
-                       Lanes::broadcast(factor);
-    Vector higher = Lanes::select(Lanes::less(known, gap), gap, known);
-    higher = Lanes::select(Lanes::less_equal(higher, most), higher, known);
-    Lanes::store(&bound[at], higher);
-    near |= Lanes::to_bits(Lanes::less(higher, Lanes::broadcast(upper))) << at;
+    near |= Lanes::to_bits(Lanes::less(Lanes::load(&bound[at]), Lanes::broadcast(upper))) << at;
   }
   return near;
 }

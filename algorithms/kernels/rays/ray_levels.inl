@@ -10,6 +10,8 @@
 
 #include "algorithms/kernels/rays/ray_packet.inl"
 
+#include "algorithms/kernels/rays/points/winding_walk.inl"
+
 // A ray that is walked with others.
 struct Walker {
   std::size_t ray;
@@ -99,17 +101,5 @@ TOUCHSTONE_TARGET void cast_block(const RayMesh& mesh, RayTask task, std::span<c
       hit.v = numbers.v[i];
     }
     hits[i] = hit;
-  }
-}
-
-TOUCHSTONE_TARGET void wind_block(const RayMesh& mesh, std::span<WindingQuery> queries,
-                                  RayBlock& block) {
-  localise(mesh, block);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    // A point that is too far for that is outside.
-    if (!block.is_usable(i)) continue;
-    Walk<OfferingVisitor<WindingQuery>> walk(mesh, block, i, 0, block.tau_end[i], queries[i]);
-    while (walk.step()) {
-    }
   }
 }

@@ -14,7 +14,7 @@ namespace touchstone::ray_tree {
 void cast_each(const RayMesh& mesh, RayTask task, std::span<const Ray> rays,
                std::span<RayHit> hits);
 
-// Offers to each query every triangle that may be above its point. At most RayBlock::most, at least one.
+// Tells each query of the triangles above its point, and offers it those that may be. At most RayBlock::most, at least one.
 void wind_each(const RayMesh& mesh, std::span<WindingQuery> queries);
 
 }  // namespace touchstone::ray_tree

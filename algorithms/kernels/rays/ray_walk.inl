@@ -202,27 +202,3 @@ struct HitVisitor {
     return false;
   }
 };
-
-// Offers a query every triangle that the ray may hit.
-template <class Query>
-struct OfferingVisitor {
-  const RayMesh& mesh;
-  Query& query;
-  Shear shear;
-  LeafHits hits;
-
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE OfferingVisitor(const RayMesh& m, const RayBlock& block,
-                                                      std::size_t ray, Query& q)
-      : mesh(m), query(q), shear(block, ray) {}
-
-  TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool visit(std::uint32_t number, float& tau_end) {
-    const Leaf& leaf = mesh.leaves()[number];
-    meet(leaf, shear, tau_end, hits);
-    for (unsigned bits = hits.possible; bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      const auto [a, b, c] = mesh.corners(leaf, lane);
-      if (query.offer(leaf.triangle[lane], a, b, c)) return true;
-    }
-    return false;
-  }
-};

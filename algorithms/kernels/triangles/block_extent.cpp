@@ -1,7 +1,8 @@
 // Extents of blocks, and the choice of the instruction level.
 #include "algorithms/kernels/triangles/block_extent.h"
 
-#include <array>
+#include <tuple>
+#include <utility>
 
 #include "algorithms/kernels/simd/vector.h"
 
@@ -24,20 +25,34 @@ void ends_of(const TriangleBlock& block, const Vec3d& way, BlockEnds& ends) {
   baseline::ends_of_block(block, way, ends);
 }
 
+void ends_along(const TriangleBlock& block, const Mat3d& ways, std::array<BlockEnds, 3>& ends) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::ends_along_rows(block, ways, ends);
+    case Isa::avx2: return avx2::ends_along_rows(block, ways, ends);
+    case Isa::baseline: break;
+  }
+  baseline::ends_along_rows(block, ways, ends);
+}
+
+// The ends of all triangles; NaN if one is not finite. Without branches, which nothing foresees.
+std::pair<double, double> ends_of_all(const BlockEnds& ends) {
+  double low = ends.low[0], high = ends.high[0], sum = 0;
+  for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
+    low = ends.low[lane] < low ? ends.low[lane] : low;
+    high = ends.high[lane] > high ? ends.high[lane] : high;
+    sum += ends.low[lane];
+  }
+  const double nothing = sum - sum;
+  return {low + nothing, high + nothing};
+}
+
 }  // namespace
 
 BlockExtent extent_along(const TriangleBlock& block, const Vec3d& way) {
   BlockEnds ends;
   ends_of(block, way, ends);
-  BlockExtent extent = {way, ends.low[0], ends.high[0]};
-  for (std::size_t lane = 1; lane < TriangleBlock::size; ++lane) {
-    // NaN stays.
-    if (!(ends.low[lane] >= extent.low) && extent.low == extent.low) extent.low = ends.low[lane];
-    if (!(ends.high[lane] <= extent.high) && extent.high == extent.high) {
-      extent.high = ends.high[lane];
-    }
-  }
-  return extent;
+  const auto [low, high] = ends_of_all(ends);
+  return {way, low, high};
 }
 
 BlockExtent extent_along_normal(const TriangleBlock& block) {
@@ -47,6 +62,16 @@ BlockExtent extent_along_normal(const TriangleBlock& block) {
     sum += (block.corner(lane, 1) - corner).cross(block.corner(lane, 2) - corner);
   }
   return extent_along(block, sum.stableNormalized());
+}
+
+BlockBox box_along(const TriangleBlock& block, const Mat3d& ways) {
+  std::array<BlockEnds, 3> ends;
+  ends_along(block, ways, ends);
+  BlockBox box;
+  for (std::size_t row = 0; row < 3; ++row) {
+    std::tie(box.low[row], box.high[row]) = ends_of_all(ends[row]);
+  }
+  return box;
 }
 
 unsigned reaching(const TriangleBlock& block, const BlockExtent& extent, double slack) {

@@ -4,6 +4,8 @@
 //        TR99-018, 1999 (thin volumes at the leaves; there they are rectangles).
 #pragma once
 
+#include <array>
+
 #include "algorithms/kernels/triangles/triangle_block.h"
 
 namespace touchstone {
@@ -18,6 +20,12 @@ struct BlockExtent {
 BlockExtent extent_along(const TriangleBlock& block, const Vec3d& way);
 // Along the sum of the triangles' normals; the way is zero if that is zero.
 BlockExtent extent_along_normal(const TriangleBlock& block);
+
+// The ends of a block along each row of a matrix (metres); NaN if a corner is not finite.
+struct BlockBox {
+  std::array<double, 3> low, high;
+};
+BlockBox box_along(const TriangleBlock& block, const Mat3d& ways);
 
 // Returns the bits of the triangles that are not surely beyond the extent's ends by more than `slack`.
 unsigned reaching(const TriangleBlock& block, const BlockExtent& extent, double slack);

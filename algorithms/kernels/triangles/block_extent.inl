@@ -29,6 +29,12 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void ends_of_block(const TriangleBlo
   }
 }
 
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void ends_along_rows(const TriangleBlock& block,
+                                                                 const Mat3d& ways,
+                                                                 std::array<BlockEnds, 3>& ends) {
+  for (int row = 0; row < 3; ++row) ends_of_block(block, ways.row(row), ends[row]);
+}
+
 TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned reaching_lanes(const TriangleBlock& block,
                                                                     const BlockExtent& extent,
                                                                     double slack) {

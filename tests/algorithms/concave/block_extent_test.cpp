@@ -66,6 +66,39 @@ TEST(BlockExtent, LeavesOutWhatIsBeyondAndNothingElse) {
   limit_isa(isa_of_machine());
 }
 
+TEST(BlockExtent, HasTheEndsOfAllTriangles) {
+  for (const Isa level : isa_levels()) {
+    limit_isa(level);
+    reference::Random random(14);
+    for (int i = 0; i < 500 / one_in; ++i) {
+      TriangleBlock block = flat_block(random, random.vector(1), 0.5);
+      const Mat3d ways = random.rotation();
+      const BlockBox box = box_along(block, ways);
+      for (std::size_t row = 0; row < 3; ++row) {
+        const Vec3d way = ways.row(static_cast<int>(row));
+        auto [low, high] = ends_of(block, 0, way);
+        for (std::size_t lane = 1; lane < TriangleBlock::size; ++lane) {
+          const auto ends = ends_of(block, lane, way);
+          low = std::min(low, ends.first);
+          high = std::max(high, ends.second);
+        }
+        EXPECT_NEAR(box.low[row], low, 1e-14);
+        EXPECT_NEAR(box.high[row], high, 1e-14);
+        const BlockExtent extent = extent_along(block, way);
+        EXPECT_EQ(extent.low, box.low[row]);
+        EXPECT_EQ(extent.high, box.high[row]);
+      }
+      // One that is not finite has no ends, wherever it is.
+      block.at[static_cast<std::size_t>(i) % 9][static_cast<std::size_t>(i) % 8] =
+          i % 2 == 0 ? std::numeric_limits<double>::quiet_NaN()
+                     : std::numeric_limits<double>::infinity();
+      const BlockBox none = box_along(block, ways);
+      EXPECT_TRUE(std::isnan(none.low[0]) && std::isnan(none.high[2]));
+    }
+  }
+  limit_isa(isa_of_machine());
+}
+
 TEST(BlockExtent, ABlockReachesIntoItsOwn) {
   reference::Random random(12);
   for (int i = 0; i < 500 / one_in; ++i) {

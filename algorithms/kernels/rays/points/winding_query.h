@@ -24,6 +24,9 @@ class WindingQuery {
   // Returns true if the point is on the triangle, and nothing else matters.
   bool offer(std::uint32_t triangle, const Vec3d& a, const Vec3d& b, const Vec3d& c);
 
+  // The same for triangles that are above the point for certain: those that turn up less the others.
+  void count(int turns) { winding_ += turns; }
+
   bool is_on_surface() const { return is_on_surface_; }
   int winding() const { return winding_; }
   // True if numbers were too small or too great to decide (beyond 2^-120 or 2^120).
