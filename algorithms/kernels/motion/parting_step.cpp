@@ -10,14 +10,14 @@ namespace {
 // A body's part of the gap along a direction n that points away from it.
 class Reach {
  public:
-  Reach(PosedShape<double>& shape, const Vec3d& centre, const Vec3d& rotation_vector, double unit,
-        double greatest, const Vec3d& n)
+  Reach(PosedShape<double>& shape, const Vec3d& centre, const Vec3d& rotation_vector, double angle,
+        double unit, double greatest, const Vec3d& n)
       : shape_(shape),
         centre_(centre),
         n_(n),
         turn_(n.cross(rotation_vector)),
         unit_(unit),
-        bend_(turn_.norm() * rotation_vector.norm() * greatest) {}
+        bend_(turn_.norm() * angle * greatest) {}
 
   // Adds the body's centre and core: value is an upper bound on how far they reach along n after h,
   // less the part that is linear in time and the same for all points.
@@ -61,10 +61,10 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
   const double balls = balls_apart(motion, plane, slack);
   if (balls > left) return {1, true};
 
-  Reach of_a(pair.a(), motion.centre_a(plane.time), motion.a().motion->rotation_vector, unit,
-             motion.reach_a(), n);
-  Reach of_b(pair.b(), motion.centre_b(plane.time), motion.b().motion->rotation_vector, unit,
-             motion.reach_b(), -n);
+  Reach of_a(pair.a(), motion.centre_a(plane.time), motion.a().motion->rotation_vector,
+             motion.angle_a(), unit, motion.reach_a(), n);
+  Reach of_b(pair.b(), motion.centre_b(plane.time), motion.b().motion->rotation_vector,
+             motion.angle_b(), unit, motion.reach_b(), -n);
   const double closing = n.dot(motion.displacement());
   const double bend = of_a.bend() + of_b.bend();
   const double apart = unit * (n.dot(pair.centre_b()) - pair.radius()) - slack;
@@ -72,8 +72,7 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
     return apart + h * closing - of_a.value(h) - of_b.value(h) - 0.5 * h * h * bend;
   };
   const double now = gap(0);
-  const double fastest = std::max(motion.a().motion->rotation_vector.norm(),
-                                  motion.b().motion->rotation_vector.norm());
+  const double fastest = std::max(motion.angle_a(), motion.angle_b());
   double end = std::min(left, greatest_turn / std::max(fastest, 1e-300));
   // gap(h) is at most now + rate h - bend h^2 / 2, which is zero at the guess.
   const double rate = closing - of_a.speed() - of_b.speed();

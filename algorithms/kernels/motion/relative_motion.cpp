@@ -13,10 +13,9 @@ double reach_of(const MovingBody& body) {
   return reach * stretch_of(body.pose->rotation) * (1 + 1e-12);
 }
 
-double turning_rounding(const MovingBody& body, double reach) {
+double turning_rounding(double angle, double reach) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  if (!body.motion->turns()) return 0;
-  return (4 * body.motion->rotation_vector.norm() + 30) * epsilon * reach;
+  return angle > 0 ? (4 * angle + 30) * epsilon * reach : 0;
 }
 
 // Each column's cross product with a vector.
@@ -46,8 +45,8 @@ Mat3d rotation_by(const Vec3d& rotation_vector) {
   return Mat3d::Identity() + sine * across + versine * cross_columns(axis, across);
 }
 
-TurningPose::TurningPose(const MovingBody& body)
-    : start_(body.pose->rotation), angle_(body.motion->rotation_vector.norm()) {
+TurningPose::TurningPose(const MovingBody& body, double angle)
+    : start_(body.pose->rotation), angle_(angle) {
   if (!(angle_ > 0)) return;
   const Vec3d axis = body.motion->rotation_vector / angle_;
   across_ = cross_columns(axis, start_);
@@ -64,8 +63,8 @@ double stretch_of(const Mat3d& matrix) {
   // The greatest eigenvalue of M^T M, which is symmetric, is at most its greatest row sum.
   const auto x = matrix.col(0), y = matrix.col(1), z = matrix.col(2);
   const double xy = std::abs(x.dot(y)), yz = std::abs(y.dot(z)), zx = std::abs(z.dot(x));
-  const double greatest = std::max({x.squaredNorm() + xy + zx, y.squaredNorm() + yz + xy,
-                                    z.squaredNorm() + zx + yz});
+  const double greatest =
+      std::max({x.squaredNorm() + xy + zx, y.squaredNorm() + yz + xy, z.squaredNorm() + zx + yz});
   return std::sqrt(greatest) * (1 + 1e-12);
 }
 
@@ -75,10 +74,12 @@ MotionBounds::MotionBounds(const MovingBody& a, const MovingBody& b)
       offset_(b.pose->translation - a.pose->translation),
       displacement_(b.motion->displacement - a.motion->displacement),
       reach_a_(reach_of(a)),
-      reach_b_(reach_of(b)) {
+      reach_b_(reach_of(b)),
+      angle_a_(a.motion->rotation_vector.norm()),
+      angle_b_(b.motion->rotation_vector.norm()) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   placement_rounding_ = 8 * epsilon * (offset_.stableNorm() + displacement_.stableNorm()) +
-                        turning_rounding(a, reach_a_) + turning_rounding(b, reach_b_);
+                        turning_rounding(angle_a_, reach_a_) + turning_rounding(angle_b_, reach_b_);
 }
 
 Vec3d RelativeMotion::centre_a(double time) const {

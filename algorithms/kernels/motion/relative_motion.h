@@ -31,7 +31,8 @@ struct MovingBody {
 // rotation_by.
 class TurningPose {
  public:
-  explicit TurningPose(const MovingBody& body);
+  // `angle` is that of the body's motion.
+  TurningPose(const MovingBody& body, double angle);
   Mat3d at(double time) const;
 
  private:
@@ -57,6 +58,9 @@ class MotionBounds {
   // Greatest distance of a core's point from the body's origin.
   double reach_a() const { return reach_a_; }
   double reach_b() const { return reach_b_; }
+  // By how much the bodies turn (radians).
+  double angle_a() const { return angle_a_; }
+  double angle_b() const { return angle_b_; }
   const MovingBody& a() const { return a_; }
   const MovingBody& b() const { return b_; }
 
@@ -69,7 +73,7 @@ class MotionBounds {
   MovingBody a_, b_;
   Vec3d offset_;        // from a's origin to b's at time 0
   Vec3d displacement_;  // of b relative to a
-  double reach_a_, reach_b_;
+  double reach_a_, reach_b_, angle_a_, angle_b_;
   double placement_rounding_;
 };
 
@@ -77,7 +81,9 @@ class MotionBounds {
 class RelativeMotion : public MotionBounds {
  public:
   explicit RelativeMotion(const MotionBounds& bounds)
-      : MotionBounds(bounds), turning_a_(bounds.a()), turning_b_(bounds.b()) {}
+      : MotionBounds(bounds),
+        turning_a_(bounds.a(), bounds.angle_a()),
+        turning_b_(bounds.b(), bounds.angle_b()) {}
 
   // How far rounding moves a support point of a pair made by `at`, or its plane, in the pair's own
   // unit; certified/proven_rounding.h proves 248 u, and the rest is for the unit length of a
