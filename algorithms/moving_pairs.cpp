@@ -13,8 +13,8 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t bodies_a_block = 128;
-constexpr std::size_t pairs_a_block = 512;
+constexpr std::size_t bodies_a_block = 256;
+constexpr std::size_t pairs_a_block = 1024;
 // Bodies of the sample, each of which is tested against so many others at least, or a part of them.
 constexpr std::size_t sampled = 16;
 constexpr std::size_t least_others = 512;
