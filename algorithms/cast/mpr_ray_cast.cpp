@@ -11,7 +11,7 @@
 //             portals with the old corners: keep the one that the line passes, and repeat.
 //          4. Every support plane on the way proves the bodies free until it closes, or, if it is open at
 //             the end too, a miss.
-//          5. Prove contact a little later, for the upper end of the bracket (motion/linear_cast).
+//          5. Prove contact a little later, for the upper end of the bracket (motion/linear).
 // Departs: the paper's ray leaves the difference; this one enters it. Time grows only through planes whose gap is
 //          proven beyond rounding (MovingPair::rounding), as in gjk-ray-cast. GJK searches instead where no portal
 //          closes or it has no area, and where the bodies are in contact at the start.
@@ -22,7 +22,7 @@
 #include <array>
 #include <cmath>
 
-#include "algorithms/kernels/motion/linear_cast.h"
+#include "algorithms/kernels/motion/linear/linear_cast.h"
 
 namespace touchstone {
 namespace {

@@ -30,7 +30,7 @@
 #include "algorithms/cast.h"
 #include "algorithms/cast/gjk_ray_cast/box_lanes.h"
 #include "algorithms/cast/gjk_ray_cast/round_lanes.h"
-#include "algorithms/kernels/motion/linear_cast.h"
+#include "algorithms/kernels/motion/linear/linear_cast.h"
 
 namespace touchstone {
 namespace {

@@ -1,6 +1,6 @@
 // What balls tell of moving pairs, against exact casts: near and far, at every scale, and turned by matrices that
 // stretch.
-#include "algorithms/kernels/motion/ball_verdict.h"
+#include "algorithms/kernels/motion/linear/ball_verdict.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Used by gjk-ray-cast and mpr-ray-cast: proofs about bodies in contact, by GJK at fixed times.
 #pragma once
 
-#include "algorithms/kernels/motion/moving_pair.h"
+#include "algorithms/kernels/motion/linear/moving_pair.h"
 
 namespace touchstone {
 

@@ -2,11 +2,11 @@
 //
 // Rounding: with S the sum of the lengths of offset and displacement and of the reaches, each dot product, the
 // offset itself and the reaches are off by less than the bound of moving_pair.h for a unit of at most 2 S.
-#include "algorithms/kernels/motion/ball_verdict.h"
+#include "algorithms/kernels/motion/linear/ball_verdict.h"
 
 #include <algorithm>
 
-#include "algorithms/kernels/motion/moving_pair.h"
+#include "algorithms/kernels/motion/linear/moving_pair.h"
 
 namespace touchstone {
 namespace {

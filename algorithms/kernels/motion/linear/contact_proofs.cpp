@@ -1,6 +1,6 @@
 // Of casts without rotation: GJK between the difference of two bodies and the path of their offset, or one
 // point of it.
-#include "algorithms/kernels/motion/contact_proofs.h"
+#include "algorithms/kernels/motion/linear/contact_proofs.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Places the pair in its unit.
-#include "algorithms/kernels/motion/moving_pair.h"
+#include "algorithms/kernels/motion/linear/moving_pair.h"
 
 #include <algorithm>
 #include <cmath>

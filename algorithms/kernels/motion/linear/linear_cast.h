@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "algorithms/cast.h"
-#include "algorithms/kernels/motion/moving_pair.h"
+#include "algorithms/kernels/motion/linear/moving_pair.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
 namespace touchstone {

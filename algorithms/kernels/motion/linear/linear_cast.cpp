@@ -1,13 +1,13 @@
 // The search by GJK, the proof of a contact, and the numbers of a hit.
-#include "algorithms/kernels/motion/linear_cast.h"
+#include "algorithms/kernels/motion/linear/linear_cast.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "algorithms/kernels/motion/ball_verdict.h"
-#include "algorithms/kernels/motion/contact_proofs.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
 #include "algorithms/kernels/motion/inner_ball.h"
+#include "algorithms/kernels/motion/linear/ball_verdict.h"
+#include "algorithms/kernels/motion/linear/contact_proofs.h"
 
 namespace touchstone {
 
