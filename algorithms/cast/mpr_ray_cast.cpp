@@ -2,7 +2,7 @@
 // Paper:   Snethen, "XenoCollide: Complex Collision Made Simple", Game Programming Gems 7, 2008.
 // Steps:   1. Relative to body a, body b's offset moves along a segment; contact is where it meets the
 //             difference of the bodies. If a plane parts balls around the bodies all the way, it is a
-//             miss.
+//             miss; if balls inside of them overlap at time 0, it is a hit there.
 //          2. Take the support point along the direction at which the path enters a ball around the
 //             difference, and support points beside it, until three of them close a portal: a triangle
 //             that the path's line passes through.
@@ -14,7 +14,8 @@
 //          5. Prove contact a little later, for the upper end of the bracket (motion/linear).
 // Departs: the paper's ray leaves the difference; this one enters it. Time grows only through planes whose gap is
 //          proven beyond rounding (MovingPair::rounding), as in gjk-ray-cast. GJK searches instead where no portal
-//          closes or it has no area, and where the bodies are in contact at the start.
+//          closes or it has no area, where the bodies are in contact at the start, and where the path is below 1e-6 of
+//          the pair's unit.
 // Fails:   as gjk-ray-cast.
 // Cost:    O(1) space; a support call for each corner of the first portal, and one for each refinement, which
 //          takes no distance of a simplex. Tolerance and cap: as gjk-ray-cast.
@@ -44,7 +45,7 @@ struct Portal {
   void replace(std::size_t k) { std::swap(order[k], order[3]); }
 };
 
-// The cores of the bodies are known when it is compiled.
+// The search for a pair whose cores are known when this is compiled.
 template <class CoreOfA, class CoreOfB>
 class PortalSearch {
  public:
@@ -67,7 +68,7 @@ class PortalSearch {
 
   Vec3d entry_normal() const;
   bool take_beside(const Vec3d& across, Corner& corner);
-  Step discover();
+  Step discover(int most_iterations);
   Step refine(double tolerance, int most_iterations);
 
   MovingPair& pair_;
@@ -95,8 +96,8 @@ bool PortalSearch<CoreOfA, CoreOfB>::take_beside(const Vec3d& across, Corner& co
 }
 
 template <class CoreOfA, class CoreOfB>
-auto PortalSearch<CoreOfA, CoreOfB>::discover() -> Step {
-  constexpr int most_corners = 24;
+auto PortalSearch<CoreOfA, CoreOfB>::discover(int most_iterations) -> Step {
+  const int most_corners = std::min(24, most_iterations);
   if (take(entry_, portal_[0])) return Step::miss;
   const Vec3d& first = portal_[0].place;
   Vec3d across = first.dot(along_) * along_ - first;
@@ -159,12 +160,13 @@ PathEnd PortalSearch<CoreOfA, CoreOfB>::search(double tolerance, int most_iterat
   if (!(length > 1e-6)) return PathEnd::open;
   along_ = pair_.velocity() / length;
   entry_ = entry_normal();
-  // The more corners the bodies have, the nearer to the entry are those of the face there.
+  // The more corners the bodies have, the nearer to the entry are those of the face there. The factor is the one
+  // with the fewest support calls in trials on boxes and on hulls of 32 and 128 vertices.
   const auto corners = [](const SupportShape<double>& shape) {
     return shape.core == SupportCore::box ? 8.0 : static_cast<double>(shape.corners.size());
   };
   lean_ = 0.45 * std::sqrt(0.5 * (corners(pair_.shape_a()) + corners(pair_.shape_b())));
-  Step step = discover();
+  Step step = discover(most_iterations);
   if (step == Step::closed) step = refine(tolerance, most_iterations);
   if (step == Step::miss) return PathEnd::miss;
   if (step == Step::open || !(pair_.time() > 0)) return PathEnd::open;

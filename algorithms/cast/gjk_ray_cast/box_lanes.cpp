@@ -6,6 +6,7 @@
 #include <concepts>
 
 #include "algorithms/core/isa.h"
+#include "algorithms/kernels/motion/relative_motion.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
@@ -29,10 +30,9 @@ bool is_nearly_rotation(const Mat3d& matrix) {
 bool balls_pass(const Vec3d& offset, const Vec3d& velocity, const Vec3d& extents_a,
                 const Vec3d& extents_b) {
   const double reach = 2 * (extents_a.squaredNorm() + extents_b.squaredNorm());
-  const double square = velocity.squaredNorm();
-  const double nearest = square > 0 ? std::clamp(-offset.dot(velocity) / square, 0.0, 1.0) : 0;
-  return (offset + nearest * velocity).squaredNorm() > 1.05 * 1.05 * reach &&
-         offset.squaredNorm() + square < 1e18 * reach;
+  const Vec3d there = offset + nearest_time(offset, velocity) * velocity;
+  return there.squaredNorm() > 1.05 * 1.05 * reach &&
+         offset.squaredNorm() + velocity.squaredNorm() < 1e18 * reach;
 }
 
 }  // namespace

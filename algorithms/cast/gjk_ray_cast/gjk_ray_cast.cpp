@@ -3,7 +3,7 @@
 //          collision detection", 2004; the simplex: Montanari, Petrinic, Barbieri, ACM TOG 36(3), 2017.
 // Steps:   1. Relative to body a, body b's offset moves along a segment; contact is where it meets the
 //             difference of the bodies. If a plane parts balls around the bodies all the way, it is a
-//             miss.
+//             miss; if balls inside of them overlap at time 0, it is a hit there (motion/linear).
 //          2. Find the support plane along the current direction. The gap along it is linear in time.
 //             If it is open at the end of the motion as well, it is a miss; otherwise time grows to
 //             where the gap closes, and the points of the simplex move back by as much.
@@ -17,8 +17,8 @@
 //          balls of spheres and capsules are taken off first, so that those are points and segments.
 //          Half-spaces are solved in closed form (motion/halfspace_cast). gjk-ray-cast-lanes solves boxes
 //          in lanes by the times at which their shadows on the 15 axes meet (box_lanes), without a point
-//          of contact, spheres and capsules by planes at their nearest points (round_lanes), and one by one as here what is left: contact at the start, grazes, and edges that
-//          are nearly parallel.
+//          of contact, spheres and capsules by planes at their nearest points (round_lanes), and one by
+//          one as here what is left: contact at the start, grazes, and edges that are nearly parallel.
 // Fails:   unknown / not_converged at the cap. Bodies that graze by less than the tolerance are a hit
 //          without `upper`. With StartContact::approach, bodies that touch at time 0 and for which no
 //          plane is found that they keep to are a hit at 0.

@@ -1,5 +1,5 @@
 // The gap between two bodies' cores along a direction: the bound that a plane proves, without its
-// support points. Used by gjk_distance.inl for warm starts.
+// support points. Used by gjk_distance.inl for warm starts, and by advancement.cpp.
 #pragma once
 
 #include "algorithms/kernels/minkowski/support.h"

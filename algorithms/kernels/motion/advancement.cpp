@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
+#include "algorithms/kernels/gjk/separation_along.h"
 #include "algorithms/kernels/motion/contact_by.h"
 #include "algorithms/kernels/motion/round_cores.h"
 
@@ -32,7 +33,7 @@ FreeUntil apart_by_balls(const MotionBounds& motion) {
   // The placement's rounding is that of the offset; products and lengths add as much.
   const double needed = reach * (1 + 1e-12) + 4 * motion.placement_rounding();
   if (!(away > needed)) return {0, false};
-  const double nearest = square > 0 ? std::clamp(-start.dot(velocity) / square, 0.0, 1.0) : 0;
+  const double nearest = nearest_time(start, velocity);
   const auto direction_at = [&](double time) { return motion.offset(time).normalized(); };
   const Vec3d across = direction_at(nearest);
   const double gap = across.dot(start), change = across.dot(velocity);
@@ -69,11 +70,14 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
 Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double time,
                                            int& iterations) {
   constexpr int most_iterations = 128;
+  // Far from contact a rough plane serves as well. GJK on polytopes ends after a few steps whatever is asked.
   constexpr double share = 0.1;
   const double unit = pair.unit();
-  // Far from contact a rough plane serves as well.
-  const Vec3d along = normal_.isZero(0) ? Vec3d(pair.centre_b().stableNormalized()) : normal_;
-  const double open = -along.dot(pair.support(along).difference) - pair.radius();
+  double open = 0;
+  if (!pair.is_polytope()) {
+    const Vec3d along = normal_.isZero(0) ? Vec3d(pair.centre_b().stableNormalized()) : normal_;
+    open = separation_along(pair, along) - pair.radius();
+  }
   const GjkDistanceGoal<double> goal{
       .task = Task::distance,
       .tolerance =

@@ -3,31 +3,30 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
 #include "algorithms/cast.h"
 #include "algorithms/kernels/motion/advancement.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
+#include "algorithms/kernels/motion/moving_scene.h"
 
 namespace touchstone {
 
 // `Step` has the function FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair, const
-// PartingPlane& plane), where the pair is at the plane's time, and `balls_first` (AdvancementGoal).
+// PartingPlane& plane), where the pair is at the plane's time, and `balls_first`: whether to begin where balls about
+// the bodies' origins meet.
 template <class Step>
 class AdvancingCast final : public Cast {
  public:
   explicit AdvancingCast(const CastSettings& settings)
       : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000))} {}
 
-  void bind(std::span<const Shape> shapes) override {
-    shapes_ = make_support_shapes<double>(shapes);
-    inner_radii_ = inner_radii(shapes, shapes_);
-  }
+  void bind(std::span<const Shape> shapes) override { scene_.bind(shapes); }
 
   void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
     const BodyPairs& pairs = batch.pairs;
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const MovingBody a = moving(batch, pairs.first[i]), b = moving(batch, pairs.second[i]);
+      const MovingBody a = scene_.body(batch, pairs.first[i]),
+                       b = scene_.body(batch, pairs.second[i]);
       outcomes[i] = {};
       if (batch.kind_b == ShapeKind::halfspace) {
         cast_halfspace(*a.shape, *a.pose, *a.motion, *b.shape, *b.pose, *b.motion,
@@ -52,14 +51,8 @@ class AdvancingCast final : public Cast {
   }
 
  private:
-  MovingBody moving(const CastBatch& batch, std::uint32_t k) const {
-    const std::uint32_t shape = batch.pairs.shape_of[k];
-    return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
-  }
-
   AdvancementGoal goal_;
-  std::vector<SupportShape<double>> shapes_;
-  std::vector<double> inner_radii_;  // metres, one for each shape
+  MovingScene scene_;
 };
 
 // Half-spaces are cast by a closed form, for bodies that do not turn.

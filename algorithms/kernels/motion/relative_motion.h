@@ -3,6 +3,8 @@
 // (contact_by.h).
 #pragma once
 
+#include <algorithm>
+
 #include "algorithms/core/motion.h"
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/kernels/motion/inner_ball.h"
@@ -16,6 +18,12 @@ Mat3d rotation_by(const Vec3d& rotation_vector);
 // Returns an upper bound on the factor by which a matrix lengthens a vector; it is tight for
 // rotations.
 double stretch_of(const Mat3d& matrix);
+
+// The time in [0, 1] at which start + time * displacement is nearest to the origin.
+inline double nearest_time(const Vec3d& start, const Vec3d& displacement) {
+  const double square = displacement.squaredNorm();
+  return square > 0 ? std::clamp(-start.dot(displacement) / square, 0.0, 1.0) : 0;
+}
 
 // A bounded body that moves.
 struct MovingBody {

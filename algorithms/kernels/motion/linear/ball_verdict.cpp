@@ -27,9 +27,8 @@ BallVerdict ask_balls(const CentreOffset& offset, const MovingBody& a, const Mov
   constexpr double least = 1e-100, most = 1e100;
   const Vec3d& start = offset.vector;
   const Vec3d velocity = b.motion->displacement - a.motion->displacement;
-  const double square = velocity.squaredNorm();
   const double away = start.norm();
-  const double lengths = away + std::sqrt(square) + reach;
+  const double lengths = away + velocity.norm() + reach;
   if (!(reach > least && lengths < most)) return BallVerdict::open;
   const double margin = 2 * MovingPair::rounding * lengths + 4 * offset.doubt;
   if (away < inner_ball(a) + inner_ball(b) &&
@@ -37,8 +36,7 @@ BallVerdict ask_balls(const CentreOffset& offset, const MovingBody& a, const Mov
     return BallVerdict::overlap;
   }
   if (!(away > reach)) return BallVerdict::open;
-  const double nearest = square > 0 ? std::clamp(-start.dot(velocity) / square, 0.0, 1.0) : 0;
-  const Vec3d there = start + nearest * velocity;
+  const Vec3d there = start + nearest_time(start, velocity) * velocity;
   const double distance = there.norm();
   if (!(distance > reach + margin)) return BallVerdict::open;
   const Vec3d direction = there / distance;

@@ -1,5 +1,5 @@
 // What balls around the bodies and balls inside of them tell of a pair that moves without turning, before
-// anything else is prepared. Used by gjk-ray-cast, its lanes and mpr-ray-cast.
+// anything else is prepared. Used by gjk-ray-cast and mpr-ray-cast.
 #pragma once
 
 #include "algorithms/kernels/motion/relative_motion.h"
@@ -12,8 +12,8 @@ enum class BallVerdict : std::uint8_t {
   overlap,  // at time 0 the inner balls overlap by more than the tolerance
 };
 
-// `offset` is that of the centres at time 0, `reach` the sum of their outer_reach. The tolerance is in metres. Where squares of lengths have no digits the
-// verdict is open.
+// `offset` is that of the centres at time 0, `reach` the sum of the bodies' outer_reach; the tolerance is in
+// metres. Where squares of lengths have no digits the verdict is open.
 BallVerdict ask_balls(const CentreOffset& offset, const MovingBody& a, const MovingBody& b,
                       double reach, double tolerance);
 

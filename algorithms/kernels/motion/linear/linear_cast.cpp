@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "algorithms/kernels/motion/halfspace_cast.h"
-#include "algorithms/kernels/motion/inner_ball.h"
 #include "algorithms/kernels/motion/linear/ball_verdict.h"
 #include "algorithms/kernels/motion/linear/contact_proofs.h"
 
@@ -87,24 +86,13 @@ std::optional<double> contact_by(MovingPair& pair, const PathContact& found, con
 
 }  // namespace
 
-void LinearCast::bind(std::span<const Shape> shapes) {
-  shapes_ = make_support_shapes<double>(shapes);
-  inner_radii_ = inner_radii(shapes, shapes_);
-}
-
-MovingBody LinearCast::moving(const CastBatch& batch, std::uint32_t k) const {
-  const std::uint32_t shape = batch.pairs.shape_of[k];
-  return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
-}
-
 double LinearCast::tolerance(std::uint32_t shape_a, std::uint32_t shape_b) const {
-  const auto size = [&](std::uint32_t k) { return shapes_[k].size + shapes_[k].radius; };
-  return settings_.tolerance.value_or(1e-9 * std::max(size(shape_a), size(shape_b)));
+  return settings_.tolerance.value_or(1e-9 * std::max(scene_.size(shape_a), scene_.size(shape_b)));
 }
 
 void LinearCast::solve(const CastBatch& batch, std::size_t i, CastOutcome& outcome) const {
-  const MovingBody a = moving(batch, batch.pairs.first[i]);
-  const MovingBody b = moving(batch, batch.pairs.second[i]);
+  const MovingBody a = scene_.body(batch, batch.pairs.first[i]);
+  const MovingBody b = scene_.body(batch, batch.pairs.second[i]);
   outcome = {};
   if (batch.kind_b == ShapeKind::halfspace) {
     cast_halfspace(*a.shape, *a.pose, *a.motion, *b.shape, *b.pose, *b.motion,

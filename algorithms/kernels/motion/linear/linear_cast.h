@@ -2,12 +2,12 @@
 // outcome needs after any search. Used by gjk-ray-cast and mpr-ray-cast.
 #pragma once
 
+#include <algorithm>
 #include <span>
-#include <vector>
 
 #include "algorithms/cast.h"
 #include "algorithms/kernels/motion/linear/moving_pair.h"
-#include "algorithms/kernels/motion/relative_motion.h"
+#include "algorithms/kernels/motion/moving_scene.h"
 
 namespace touchstone {
 
@@ -27,8 +27,7 @@ struct PathContact {
 using PathSearch = PathEnd (*)(MovingPair& pair, double tolerance, int most_iterations,
                                PathContact& found);
 
-// By GJK, from the time at which the pair is. Time grows only through planes
-// whose gap is proven.
+// By GJK, from the time at which the pair is. Time grows only through planes whose gap is proven.
 PathEnd search_by_gjk(MovingPair& pair, double tolerance, int most_iterations, PathContact& found);
 
 // Moves the pair to where a support plane with this unit normal closes, if that is later than where it is,
@@ -44,7 +43,7 @@ class LinearCast {
         most_iterations_(std::max(1, settings.max_iterations.value_or(128))),
         search_(search) {}
 
-  void bind(std::span<const Shape> shapes);
+  void bind(std::span<const Shape> shapes) { scene_.bind(shapes); }
   void solve(const CastBatch& batch, std::size_t i, CastOutcome& outcome) const;
   // All pairs, one after the other.
   void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) const;
@@ -52,14 +51,12 @@ class LinearCast {
   double tolerance(std::uint32_t shape_a, std::uint32_t shape_b) const;
 
  private:
-  MovingBody moving(const CastBatch& batch, std::uint32_t k) const;
   void cast_bounded(const MovingBody& a, const MovingBody& b, CastOutcome& outcome) const;
 
   CastSettings settings_;
   int most_iterations_;
   PathSearch search_;
-  std::vector<SupportShape<double>> shapes_;
-  std::vector<double> inner_radii_;  // metres, one for each shape
+  MovingScene scene_;
 };
 
 }  // namespace touchstone

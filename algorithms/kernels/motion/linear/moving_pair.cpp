@@ -23,9 +23,7 @@ MovingPair::MovingPair(const CentreOffset& offset, const Vec3d& displacement, do
       offset_(start_) {}
 
 Vec3d MovingPair::first_direction() const {
-  const double square = velocity_.squaredNorm();
-  const double nearest = square > 0 ? std::clamp(-start_.dot(velocity_) / square, 0.0, 1.0) : 0;
-  const Vec3d there = start_ + nearest * velocity_;
+  const Vec3d there = start_ + nearest_time(start_, velocity_) * velocity_;
   const double distance = there.norm();
   const double length = start_.norm();
   // A direction across the path parts bodies that pass each other, and turns none away early.
