@@ -74,8 +74,8 @@ class DirectionalAdvancement final : public Ccd {
 };
 
 // Returns true if along one of the axes all vertices of the first feature are further than the threshold from all of
-// the second, on the same side at time 0 and at time 1. An
-// axis has no rounding of its own, so that the threshold has room.
+// the second, on the same side at time 0 and at time 1. An axis has no rounding of its own, so that the threshold
+// has room.
 bool an_axis_parts(const ScaledEdges& edges, bool is_face, double threshold) {
   using Vector = Eigen::Map<const Vec3d>;
   // The second feature's extent from the first's.
