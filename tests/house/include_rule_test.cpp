@@ -39,6 +39,8 @@ const std::vector<SourceFile>& files() {
         std::ifstream stream(entry.path());
         for (std::string line; std::getline(stream, line);) {
           file.text += line + "\n";
+          // The expression takes a thousand times as long to find that a line is of another kind.
+          if (line.find("include") == std::string::npos) continue;
           std::smatch match;
           if (std::regex_search(line, match, include)) {
             (match[1] == "\"" ? file.own : file.other).push_back(match[2]);
