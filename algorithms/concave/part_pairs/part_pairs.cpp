@@ -5,7 +5,8 @@
 // Steps:   1. Bind: boxes of all parts go to the mid-phase; `fused` builds trees of its own for
 //             meshes, and gives boxes to the mid-phase when two bodies of convex parts are asked.
 //          2. Two meshes: pairs of triangles are decided by the signs of volumes in doubles, and in
-//             integers where rounding hides a sign. `fused` descends trees of its own, with boxes in
+//             integers where rounding hides a sign. `fused` first looks for a plane between their hulls
+//             (hull_separation), and then descends trees of its own, with boxes in
 //             both bodies' frames, leaves out what lies beyond a leaf's ends along its normal, and
 //             tests two leaves of eight at once.
 //          3. A convex part with a convex part or a triangle: a narrow phase decides, sixty-four
@@ -31,6 +32,7 @@
 
 #include "algorithms/concave/part_pairs/convex_pairs.h"
 #include "algorithms/concave/part_pairs/convex_search.h"
+#include "algorithms/concave/part_pairs/hull_separation.h"
 #include "algorithms/concave/part_pairs/interior.h"
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
 #include "algorithms/concave/part_pairs/part_distance.h"
@@ -49,6 +51,7 @@ class PartPairs final : public ConcavePhase {
     if (test == nullptr) {
       mesh_pairs_ = fused_pairs(trees_);
       search_.emplace(trees_);
+      hulls_.emplace();
       make_mid_phase_ = settings.mid_phase;
     } else {
       mid_phase_ = settings.mid_phase();
@@ -69,6 +72,7 @@ class PartPairs final : public ConcavePhase {
     if (search_) {
       mid_phase_ = nullptr;
       search_->bind(bodies_);
+      hulls_->bind(bodies_);
     } else {
       fill_mid_phase();
     }
@@ -88,6 +92,11 @@ class PartPairs final : public ConcavePhase {
     const bool all = task == ConcaveTask::contacts;
     std::optional<Status> undecided;
     if (first.mesh() != nullptr && second.mesh() != nullptr) {
+      if (hulls_ && hulls_->parts(a, b)) {
+        outcome.answer = Answer::separated;
+        if (task == ConcaveTask::distance) distances_.measure(a, b, convex_pairs_, outcome);
+        return;
+      }
       mesh_pairs_->find(a, b, [&](std::span<const IndexPair> found) {
         pairs.insert(pairs.end(), found.begin(), found.end());
         return all;
@@ -208,7 +217,8 @@ class PartPairs final : public ConcavePhase {
   std::function<std::unique_ptr<MidPhase>()> make_mid_phase_;
   std::shared_ptr<MidPhase> mid_phase_;  // null until it is needed
   std::unique_ptr<MeshPairs> mesh_pairs_;
-  std::optional<ConvexSearch> search_;  // of `fused`
+  std::optional<ConvexSearch> search_;   // of `fused`
+  std::optional<HullSeparation> hulls_;  // of `fused`
   ConvexPairs convex_pairs_;
   PartDistance distances_;
   std::optional<Welding> welding_;

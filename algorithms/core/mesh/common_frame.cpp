@@ -2,8 +2,8 @@
 //
 // u is half an epsilon; norms are those of the greatest sum of a row's magnitudes.
 //
-// In the frame of a, let A' be about the inverse of a's rotation A: its transpose, or, if that is off,
-// as where rotations were rounded to floats, the inverse in doubles. With E = I - A'A the exact place of
+// In the frame of a, let A' be about the inverse of a's rotation A: its transpose T; if that is off, as where
+// rotations were rounded to floats, T - F T with F = T A - I, which leaves F F; or else the inverse in doubles. With E = I - A'A the exact place of
 // b's point y is (I - E)^-1 A' (B y + t), t = t_b - t_a. It is off from A' (B y + t) by at most
 // |E| / (1 - |E|) times that, and A' (B y + t) is at most m = |A'| (|B| |y| + |t|). Rounding adds u |t|
 // for the difference, 3 u for each product of three terms, and 4 u for the map of a point: together less
@@ -23,12 +23,33 @@ namespace {
 constexpr double u = std::numeric_limits<double>::epsilon() / 2;
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double least_skew = 64 * u;  // of the transpose of what is a rotation in doubles
+constexpr double greatest_step = 1e-6;
 constexpr double greatest_skew = 1e-10;
 
 double norm(const Mat3d& m) { return m.cwiseAbs().rowwise().sum().maxCoeff(); }
 
-double skew_of(const Mat3d& inverse, const Mat3d& m) {
-  return norm(inverse * m - Mat3d::Identity()) + 8 * u * norm(inverse) * norm(m);
+// About the inverse of a matrix, and what its product with the matrix is off from one, at most.
+struct AboutInverse {
+  Mat3d matrix;
+  double skew;
+};
+
+AboutInverse about_inverse(const Mat3d& m) {
+  AboutInverse found = {m.transpose(), 0};
+  Mat3d off = found.matrix * m - Mat3d::Identity();
+  const double length = norm(off), rounding = norm(found.matrix) * norm(m) * u;
+  found.skew = length + 8 * rounding;
+  if (found.skew <= least_skew) return found;
+  if (length <= greatest_step) {
+    found.matrix -= off * found.matrix;
+    // Rounded are `off`, its product with the transpose, and the difference.
+    found.skew = 1.1 * length * length + 16 * rounding;
+    return found;
+  }
+  found.matrix = m.inverse();
+  off = found.matrix * m - Mat3d::Identity();
+  found.skew = norm(off) + 8 * u * norm(found.matrix) * norm(m);
+  return found;
 }
 
 // Returns true if x y + z is the same in doubles and exactly.
@@ -53,13 +74,8 @@ double dot(const Mat3d& m, int row, const Vec3d& v, double start, bool& exact) {
 
 CommonFrame common_frame(const Pose& a, double reach_a, const Pose& b, double reach_b) {
   CommonFrame frame;
-  Mat3d turned = a.rotation.transpose();
+  const auto [turned, skew] = about_inverse(a.rotation);
   const Vec3d offset = b.translation - a.translation;
-  double skew = skew_of(turned, a.rotation);
-  if (!(skew <= least_skew)) {
-    turned = a.rotation.inverse();
-    skew = skew_of(turned, a.rotation);
-  }
   const double far = norm(b.rotation) * reach_b + offset.cwiseAbs().maxCoeff();
   if (skew <= greatest_skew) {
     frame.b.rotation = turned * b.rotation;

@@ -1,7 +1,7 @@
 // The search of one tree, and the choice of the instruction level.
 //
 // The slack is that of the simultaneous descent (wide_descent.cpp), with the sum of all lengths in
-// place of the greatest coordinate. A root of a sum of three squares is off by less than 8 parts of
+// place of the greatest coordinate; 17 parts of 2^24 of it are for an inverse that is off. A root of a sum of three squares is off by less than 8 parts of
 // 2^24, which the factor `certain` takes away. Squares above 3e38 are infinite: what is further than
 // 1e19 then is dropped only if the radius is less.
 #include "algorithms/kernels/bvh/wide_search.h"
@@ -49,22 +49,42 @@ SearchBox::Extent extent(const Vec3d& centre, const Vec3d& half, double slack) {
   return made;
 }
 
+// About the inverse of a matrix, what its product with the matrix is off from one, and how many times as long it makes
+// a vector, at most.
+struct Inverse {
+  Mat3d matrix;
+  double skew, stretch;
+};
+constexpr double greatest_skew = 1e-6;
+
+Inverse inverse_of(const Mat3d& m) {
+  const Mat3d transposed = m.transpose();
+  const double skew = norm(transposed * m - Mat3d::Identity());
+  // The squares of lengths grow by as much as the product is off.
+  if (skew <= greatest_skew) return {transposed, skew, 1 + greatest_skew};
+  // The norm bounds the root of the greatest eigenvalue.
+  const Mat3d inverse = m.inverse();
+  return {inverse, norm(inverse * m - Mat3d::Identity()),
+          std::sqrt(norm(inverse.transpose() * inverse))};
+}
+
 }  // namespace
 
 SearchBox search_box(const Vec3d& low, const Vec3d& high, double radius, const Pose& map,
                      double error, double reach) {
   const Mat3d& turn = map.rotation;
-  const Mat3d back = turn.inverse();
-  const bool has_inverse = norm(back * turn - Mat3d::Identity()) <= 1e-9;
-  const double norm_back = has_inverse ? norm(back) : 0;
+  const Inverse inverse = inverse_of(turn);
+  const bool has_inverse = inverse.skew <= greatest_skew;
+  const double norm_back = has_inverse ? norm(inverse.matrix) : 0;
   const double all = (1 + norm(turn)) * (1 + norm_back) *
                      (reach + magnitude(low, high) + map.translation.cwiseAbs().sum());
-  const double slack = 256 * 0x1p-24 * all + 8 * error + std::numeric_limits<float>::min();
+  const double slack = 288 * 0x1p-24 * all + 8 * error + std::numeric_limits<float>::min();
   SearchBox box;
   const Vec3d centre = low / 2 + high / 2, half = high / 2 - low / 2;
   box.own = extent(centre, half, slack);
   const Vec3d unknown = Vec3d::Constant(std::numeric_limits<double>::infinity());
-  box.seen = has_inverse ? extent(back * (centre - map.translation), back.cwiseAbs() * half, slack)
+  box.seen = has_inverse ? extent(inverse.matrix * (centre - map.translation),
+                                  inverse.matrix.cwiseAbs() * half, slack)
                          : extent(unknown, unknown, slack);
   for (int row = 0; row < 3; ++row) {
     for (int k = 0; k < 3; ++k) {
@@ -75,9 +95,7 @@ SearchBox search_box(const Vec3d& low, const Vec3d& high, double radius, const P
   }
   box.view.slack = 0;  // the box has it
   box.radius = round_up(radius);
-  // A ball becomes an ellipsoid; the norm bounds the root of the greatest eigenvalue.
-  box.seen_radius =
-      has_inverse ? round_up(radius * std::sqrt(norm(back.transpose() * back)) * (1 + 1e-6)) : 0;
+  box.seen_radius = has_inverse ? round_up(radius * inverse.stretch * (1 + 1e-6)) : 0;
   return box;
 }
 

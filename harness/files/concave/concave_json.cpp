@@ -2,9 +2,11 @@
 #include "harness/files/concave/concave_json.h"
 
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "algorithms/hull/convex_hull.h"
 #include "harness/files/shape_json.h"
 #include "harness/geometry/shapes/compound.h"
 
@@ -67,6 +69,24 @@ bool has_type(const JsonNode& shape, const char* type) {
   return shape.at("type", "a shape's name").text("a shape's name") == type;
 }
 
+// Adds the triangles of a surface, each a flat hull.
+void add_triangles(const JsonNode& shape, const Pose& pose, std::span<const Pose> around,
+                   std::vector<ConvexPart>& parts) {
+  const std::shared_ptr<const TriangleMesh> mesh = read_mesh(shape);
+  if (mesh->solid) {
+    shape.fail(
+        "found a solid mesh in a compound; expected a surface, or the solid as a body of its own");
+  }
+  for (const auto& corners : mesh->triangles) {
+    ConvexPart& part = parts.emplace_back();
+    part.shape.kind = ShapeKind::hull;
+    part.shape.hull = make_hull(
+        {mesh->vertices[corners[0]], mesh->vertices[corners[1]], mesh->vertices[corners[2]]});
+    part.pose = pose;
+    geometry::place_within(around, part);
+  }
+}
+
 // Adds the parts of a compound that lies within others: `around` has their poses, the outermost
 // first.
 void add_parts(const JsonNode& compound, std::vector<Pose>& around,
@@ -79,7 +99,8 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around,
     const JsonNode shape =
         node.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
     if (has_type(shape, "mesh")) {
-      shape.fail("found a mesh in a compound; expected convex shapes and compounds");
+      add_triangles(shape, read_pose(node), around, parts);
+      continue;
     }
     if (has_type(shape, "compound")) {
       around.push_back(read_pose(node));

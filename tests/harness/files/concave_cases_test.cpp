@@ -78,6 +78,21 @@ TEST_F(ConcaveCases, Compounds) {
   EXPECT_TRUE(read(R"({"shape":{"type":"compound","parts":[]}})").a.parts.empty());
 }
 
+TEST_F(ConcaveCases, SurfacesInCompoundsAreFlatHullsByTriangle) {
+  const auto c = read(
+      R"({"shape":{"type":"compound","parts":[{"shape":{"type":"sphere","radius":1}},)"
+      R"({"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"triangles":)"
+      R"([[0,1,2],[1,2,3],[3,3,3]]},"translation":[0,0,5]},{"shape":{"type":"sphere","radius":2}}]}})");
+  ASSERT_EQ(c.a.parts.size(), 5u);
+  for (const std::size_t at : {1, 2, 3}) {
+    EXPECT_EQ(c.a.parts[at].shape.kind, ShapeKind::hull);
+    EXPECT_EQ(c.a.parts[at].pose.translation, Vec3d(0, 0, 5));
+  }
+  EXPECT_THAT(c.a.parts[2].shape.hull->vertices,
+              ::testing::UnorderedElementsAre(Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)));
+  EXPECT_EQ(c.a.parts[4].shape.radius, 2);
+}
+
 TEST_F(ConcaveCases, AreWrittenAsTheyAreRead) {
   for (
       const char* body :
@@ -141,8 +156,8 @@ TEST_F(ConcaveCases, Faults) {
               HasSubstr("a.shape.parts[0]: no \"shape\""));
   EXPECT_THAT(
       error(
-          R"({"type":"compound","parts":[{"shape":{"type":"mesh","vertices":[],"triangles":[]}}]})"),
-      HasSubstr("found a mesh in a compound"));
+          R"({"type":"compound","parts":[{"shape":{"type":"mesh","vertices":[],"triangles":[],"solid":true}}]})"),
+      HasSubstr("found a solid mesh in a compound"));
   EXPECT_THAT(error(R"({"type":"teapot"})"), HasSubstr("found \"teapot\""));
 }
 
