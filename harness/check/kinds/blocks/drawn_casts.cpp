@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/check/kinds/blocks/drawn_cases.h"
+#include "harness/families/grid_touches.h"
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/families/turning_pairs.h"
@@ -102,17 +103,8 @@ CastCase on_a_grid(Draws& draws, std::uint64_t /*index*/) {
   return case_of(c);
 }
 
-// Bodies that touch at the start on a grid, and go into each other, apart or along.
 CastCase from_touch(Draws& draws, std::uint64_t index) {
-  MovingPairCase c;
-  c.a = families::box_shape({1, 1, 1});
-  c.b = draws.below(2) == 0 ? families::box_shape({0.5, 0.5, 0.5})
-                            : families::round_shape(ShapeKind::sphere, 0.5, 0);
-  c.pose_b.translation = {1.5, draws.below(5) / 4.0 - 0.5, 0};
-  Vec3d velocity = families::on_grid(draws.vector(1));
-  if (index % 3 == 0) velocity.x() = 0;
-  c.motion_b.displacement = velocity;
-  return case_of(c);
+  return case_of(families::touching_on_grid(static_cast<families::AfterTouch>(index % 4), draws));
 }
 
 CastCase overlapping(Draws& draws, std::uint64_t index) {
@@ -146,7 +138,7 @@ void add_axes_of_motion(std::vector<DrawnFamily<CastCase>>& list) {
                       [draw, size = at.value](Draws& draws, std::uint64_t index) {
                         return draw(size, draws, index);
                       },
-                      false, axis, at.name});
+                      axis, at.name});
     }
   };
   add("cast-speed", decades(0, 12), 1, [](double path, Draws& draws, std::uint64_t index) {
@@ -199,7 +191,6 @@ std::span<const DrawnFamily<CastCase>> cast_families() {
     }
     add("casts-on-a-grid", on_a_grid);
     add("casts-from-touch", from_touch);
-    list.back().touches_along_x = true;
     add("casts-overlapping", overlapping);
     add("casts-alike", alike);
     add("casts-far-path", far_path);
