@@ -28,7 +28,8 @@ enum class CastAnswer : std::uint8_t { hit, miss, unknown };
 
 std::string_view to_string(CastAnswer answer);
 
-// Fields that are not known are NaN. A miss has none but the iterations.
+// Fields that are not known are NaN. A miss has none but the iterations. CastEntry says which hits have a
+// normal and a point.
 struct CastOutcome {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 

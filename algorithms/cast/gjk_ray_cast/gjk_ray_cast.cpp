@@ -142,6 +142,9 @@ std::vector<CastEntry> cast_gjk_ray_cast() {
       "; boxes in lanes: Gottschalk, Lin, Manocha, \"OBBTree\", SIGGRAPH 1996, "
       "with the time as in Ericson, \"Real-Time Collision Detection\", 2005, "
       "section 5.5.8";
+  lanes.lacks_point = [](ShapeKind kind_a, ShapeKind kind_b) {
+    return kind_a == ShapeKind::box && kind_b == ShapeKind::box;
+  };
   lanes.make = [](const CastSettings& settings) {
     return std::make_unique<GjkRayCast>(settings, true);
   };

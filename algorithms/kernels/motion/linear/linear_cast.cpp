@@ -170,7 +170,7 @@ void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b, CastOutc
   }
   const DifferencePoint<double> witness = weighted_mean(feature);
   outcome.point = a.pose->rotation * a.shape->centre + a.pose->translation +
-                  outcome.toi * a.motion->displacement + pair.unit() * pair.on_a(witness, normal);
+                  outcome.toi * a.motion->displacement + pair.unit() * pair.between_balls(witness);
 
   pair.set_inner_radius(a.inner_radius() + b.inner_radius());
   found.simplex = feature;
