@@ -17,11 +17,11 @@ namespace {
 
 using files::CastCase;
 
-double reach_of_motion(const CastCase& c) {
+double reach_from(const CastCase& c, const Vec3d& origin) {
   double reach = std::numeric_limits<double>::min();
   const auto add = [&](const Shape& shape, const Pose& pose, const Motion& motion) {
     reach = std::max({reach, double{loose_reach(shape, pose.rotation)} +
-                                 pose.translation.cwiseAbs().maxCoeff() +
+                                 (pose.translation - origin).cwiseAbs().maxCoeff() +
                                  motion.displacement.cwiseAbs().maxCoeff()});
   };
   add(c.shape_a, c.pose_a, c.motion_a);
@@ -31,9 +31,11 @@ double reach_of_motion(const CastCase& c) {
 
 }  // namespace
 
+double span_of_motion(const CastCase& c) { return reach_from(c, c.pose_a.translation); }
+
 CastTruths::CastTruths(std::span<const CastCase> cases)
     : cases_(cases), exact_(cases.size()), least_(cases.size()) {
-  for (const CastCase& c : cases) reaches_.push_back(reach_of_motion(c));
+  for (const CastCase& c : cases) reaches_.push_back(reach_from(c, Vec3d::Zero()));
 }
 
 const CastOutcome& CastTruths::of(std::size_t i) {
@@ -52,8 +54,9 @@ oracle::Measure CastTruths::measure_at(std::size_t i, double time) {
 // kinds that sweep no shape, a depth that they have at some time is known.
 CastTruths::Depth CastTruths::depth_on_the_way(std::size_t i, double tolerance) {
   constexpr int looks = 8;
-  const double doubt = this->doubt(i, tolerance);
-  const auto is_deep = [&](double time) { return -measure_at(i, time).upper > tolerance + doubt; };
+  const auto is_deep = [&](double time) {
+    return -measure_at(i, time).upper > 1.01 * tolerance + 1e-15 * reaches_[i];
+  };
   if (is_deep(0)) return Depth::some;
   const CastCase& c = cases_[i];
   const Vec3d way = c.motion_b.displacement - c.motion_a.displacement;
@@ -67,10 +70,11 @@ CastTruths::Depth CastTruths::depth_on_the_way(std::size_t i, double tolerance) 
     }
   }
   if (least_[i]) {
+    // The start and the path between the bodies are as they are given.
+    const double doubt = 0.01 * tolerance + 1e-15 * span_of_motion(c);
     if (-least_[i]->upper > tolerance + doubt) return Depth::some;
     return -least_[i]->lower < tolerance - doubt ? Depth::none : Depth::unknown;
   }
-  if (way.isZero(0)) return Depth::none;
   for (int look = 1; look <= looks; ++look) {
     if (is_deep(1.0 * look / looks)) return Depth::some;
   }

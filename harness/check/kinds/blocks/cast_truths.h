@@ -11,6 +11,10 @@
 
 namespace touchstone::check {
 
+// The greatest magnitude of a coordinate of both bodies and their motions, seen from where the first one
+// begins (metres).
+double span_of_motion(const files::CastCase& c);
+
 // Answers are found when they are first asked for. The cases stay where they are.
 class CastTruths {
  public:
@@ -30,9 +34,6 @@ class CastTruths {
 
   oracle::Measure measure_at(std::size_t i, double time);
   Depth depth_on_the_way(std::size_t i, double tolerance);
-  double doubt(std::size_t i, double tolerance) const {
-    return 0.01 * tolerance + 1e-15 * reaches_[i];
-  }
 
   std::span<const files::CastCase> cases_;
   std::vector<double> reaches_;

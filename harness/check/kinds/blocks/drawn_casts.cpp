@@ -125,9 +125,9 @@ CastCase thin_plate(Draws& draws, std::uint64_t index) {
   return case_of(c);
 }
 
-CastCase turning(double radians, Draws& draws, std::uint64_t /*index*/) {
+MovingPairCase any_turning(double radians, Draws& draws) {
   const ShapeKind a = quick_kind(draws), b = quick_kind(draws);
-  return case_of(families::turning(a, b, radians, draws));
+  return families::turning(a, b, radians, draws);
 }
 
 void add_axes_of_motion(std::vector<DrawnFamily<CastCase>>& list) {
@@ -163,7 +163,9 @@ void add_axes_of_motion(std::vector<DrawnFamily<CastCase>>& list) {
   std::vector<AxisValue> turns;
   for (int e = -3; e <= 8; ++e)
     turns.push_back({fmt::format("{:g}", std::ldexp(1, e)), std::ldexp(1, e)});
-  add("cast-turn", turns, 8, turning);
+  add("cast-turn", turns, 8, [](double radians, Draws& draws, std::uint64_t) {
+    return case_of(any_turning(radians, draws));
+  });
 }
 
 }  // namespace
@@ -196,29 +198,38 @@ std::span<const DrawnFamily<CastCase>> cast_families() {
     add("casts-far-path", far_path);
     add("casts-thin-plate", thin_plate);
     add("casts-every-scale", every_scale);
+    // Of every size, by 2^-20 to 2^20.
     const auto turn = [&](const char* name, int one_in, auto draw) {
-      list.push_back({name, "turns", one_in, draw});
+      list.push_back({name, "turns", one_in, [draw](Draws& draws, std::uint64_t index) {
+                        const MovingPairCase c = draw(draws, index);
+                        return case_of(families::scaled(c, std::ldexp(1, draws.below(41) - 20)));
+                      }});
     };
     constexpr std::array<std::pair<const char*, double>, 3> turns = {
         {{"turns-half-a-radian", 0.5}, {"turns-3-radians", 3}, {"turns-30-radians", 30}}};
     for (const auto& [name, radians] : turns) {
-      turn(name, 8, [radians = radians](Draws& draws, std::uint64_t index) {
-        return turning(radians, draws, index);
+      turn(name, 8, [radians = radians](Draws& draws, std::uint64_t) {
+        return any_turning(radians, draws);
       });
     }
     turn("turns-needle", 8, [](Draws& draws, std::uint64_t index) {
-      return case_of(families::turning_needle(index % 2 == 0, draws));
+      return families::turning_needle(index % 2 == 0, draws);
     });
     turn("turns-several", 8, [](Draws& draws, std::uint64_t index) {
-      return case_of(families::sinking_rod(index % 2 == 0, draws));
+      return families::sinking_rod(index % 2 == 0, draws);
     });
     turn("turns-far-pivot", 8, [](Draws& draws, std::uint64_t index) {
-      return case_of(families::far_pivot(index % 2 == 0, draws));
+      return families::far_pivot(index % 2 == 0, draws);
     });
-    turn("turns-tangential", 8, [](Draws& draws, std::uint64_t index) {
+    turn("turns-tangential", 8, [](Draws&, std::uint64_t index) {
       constexpr std::array corners = {1e-2, 1e-5, 1e-7, -1e-7, -1e-5, -1e-2};
-      const double scale = std::ldexp(1, draws.below(41) - 20);
-      return case_of(scaled(families::passing_corner(corners[index % corners.size()]), scale));
+      return families::passing_corner(corners[index % corners.size()]);
+    });
+    turn("turns-from-touch", 8, [](Draws& draws, std::uint64_t index) {
+      const auto after = static_cast<families::AfterTouch>(index % 4);
+      MovingPairCase c = families::touching_on_grid(after, draws);
+      c.motion_b.rotation_vector = draws.vector(1);
+      return c;
     });
     add_axes_of_motion(list);
     return list;
