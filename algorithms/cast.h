@@ -64,6 +64,10 @@ struct CastEntry {
   // True for the kinds of pairs that it supports, kind_a <= kind_b, if one of them turns or none
   // does; null means all. `solve` never gets other pairs: their outcome is `unsupported`.
   bool (*supports)(ShapeKind kind_a, ShapeKind kind_b, bool turns) = nullptr;
+  // True for the kinds of pairs whose hits may lack the point, as where axes alone tell the time, and a
+  // point would take as long again; null means none. Every other hit with `ok` of ours has a point, and
+  // all have a normal, except at time 0: there either may be unknown.
+  bool (*lacks_point)(ShapeKind kind_a, ShapeKind kind_b) = nullptr;
   // Null if it is not built.
   std::function<std::unique_ptr<Cast>(const CastSettings&)> make;
 };

@@ -13,8 +13,7 @@
 //          5. A time a little later, at which the centre is nearer than R, is the upper end.
 // Departs: `lower` is certified by the plane, with the rounding of its gap; the root is only a guess of it.
 //          Half-spaces: motion/halfspace_cast.
-// Fails:   not_converged at the cap of 128 planes. With StartContact::approach, points (R = 0) in contact
-//          at time 0 are a hit. Other kinds of pairs are not supported.
+// Fails:   not_converged at the cap of 128 planes. Other kinds of pairs are not supported.
 // Cost:    some tens of products and two roots. Tolerance: 1e-9 of the larger body's size.
 #include <algorithm>
 #include <cmath>
@@ -88,6 +87,14 @@ double nearest_time(const BallPath& path) {
   return std::clamp((place * vm - sv) / vv, 0.0, 1.0);
 }
 
+// A unit vector at right angles to the axis and to the velocity.
+Vec3d across_both(const BallPath& path) {
+  const Vec3d both = path.axis.stableNormalized().cross(path.velocity.stableNormalized());
+  if (!both.isZero(0)) return both.stableNormalized();
+  const Vec3d& line = path.axis.isZero(0) ? path.velocity : path.axis;
+  return line.isZero(0) ? Vec3d(Vec3d::UnitX()) : line.unitOrthogonal();
+}
+
 class ClosedFormCast final : public Cast {
  public:
   explicit ClosedFormCast(const CastSettings& settings)
@@ -107,7 +114,7 @@ class ClosedFormCast final : public Cast {
       if (batch.kind_b == ShapeKind::halfspace) {
         cast_halfspace(support_shapes_[shape_a], pairs.poses[a], batch.motions[a],
                        support_shapes_[shape_b], pairs.poses[b], batch.motions[b],
-                       {settings_.tolerance.value_or(0), settings_.start}, outcomes[i]);
+                       {settings_.tolerance, settings_.start}, outcomes[i]);
       } else {
         cast_ball(shapes_[shape_a], pairs.poses[a], batch.motions[a], shapes_[shape_b],
                   pairs.poses[b], batch.motions[b], outcomes[i]);
@@ -164,7 +171,9 @@ void ClosedFormCast::cast_ball(const Shape& a, const Pose& pose_a, const Motion&
   const Vec3d normal = away > 0 ? Vec3d(from / away) : Vec3d(Vec3d::Zero());
   if (settings_.start == StartContact::approach && outcome.toi == 0) {
     // With path.rounding, a computed gap proves that the bodies are no deeper than the tolerance.
-    for (const Vec3d& plane : {normal, across}) {
+    // Balls and a capsule that are no thicker keep to any plane along the axis and the path.
+    const Vec3d along_both = path.radius <= tolerance ? across_both(path) : Vec3d(Vec3d::Zero());
+    for (const Vec3d& plane : {normal, across, along_both}) {
       if (plane.isZero(0) || least_gap(plane) < path.rounding - tolerance) continue;
       const int planes = outcome.iterations;
       outcome = {};

@@ -15,7 +15,12 @@ enum class StartContact : std::uint8_t {
   counts,  // a hit at time 0, whatever happens then
   // A hit only if the bodies approach. They do not if some fixed direction exists along which they
   // are no deeper than the tolerance in each other at any time of the motion: bodies that touch and
-  // slide, part or rest are a miss. For motions without rotation.
+  // slide, part or rest are a miss, whether they touch in a vertex, an edge or a face, and so are flat
+  // bodies that move in their common plane. The tolerance takes up what rounding did to a touch: the
+  // start may be that deep, and bodies that get that deep and no deeper by time 1 do not approach yet.
+  // A depth that differs from the tolerance by rounding alone is taken as either. Where the least depth
+  // cannot be told from the tolerance otherwise, the answer is unknown, with the status not_converged
+  // and `lower` 0. For motions without rotation.
   approach,
 };
 
@@ -23,7 +28,8 @@ enum class CastAnswer : std::uint8_t { hit, miss, unknown };
 
 std::string_view to_string(CastAnswer answer);
 
-// Fields that are not known are NaN. A miss has none but the iterations.
+// Fields that are not known are NaN. A miss has none but the iterations. CastEntry says which hits have a
+// normal and a point.
 struct CastOutcome {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 

@@ -1,4 +1,5 @@
-// Pairs of convex bodies that move: towards each other, past each other, through each other, and turning.
+// Pairs of convex bodies that move: towards each other, past each other, through each other, turning, and from
+// a touch.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "algorithms/core/bounds.h"
 #include "algorithms/hull/convex_hull.h"
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
@@ -27,16 +29,20 @@ enum class Way : std::uint8_t {
   far_hit,
   turn_half,
   turn_2,
-  turn_20
+  turn_20,
+  graze,
+  into
 };
-constexpr std::array<std::string_view, 8> way_names = {"hit",
-                                                       "miss by 1e-3",
-                                                       "clear miss",
-                                                       "overlapping at the start",
-                                                       "hit from a thousand sizes",
-                                                       "turning by 0.5",
-                                                       "turning by 2",
-                                                       "turning by 20"};
+constexpr std::array<std::string_view, 10> way_names = {"hit",
+                                                        "miss by 1e-3",
+                                                        "clear miss",
+                                                        "overlapping at the start",
+                                                        "hit from a thousand sizes",
+                                                        "turning by 0.5",
+                                                        "turning by 2",
+                                                        "turning by 20",
+                                                        "grazing by 1e-6",
+                                                        "going in from a touch"};
 constexpr std::array<std::string_view, 5> shape_names = {"sphere", "capsule", "box", "hull-32",
                                                          "hull-128"};
 // A time of impact that is off by more than this length of path is wrong; bodies are about 1 in size.
@@ -100,6 +106,22 @@ void add_body(CastInput& input, Shape shape, const Pose& pose, const Motion& mot
   input.motions.push_back(motion);
 }
 
+// Bodies that touch in a point, up to rounding, with a plane between them: b goes into a, or, a little
+// deeper, past it along the plane.
+void place_in_touch(const Shape& a, const Pose& pose_a, const Shape& b, Way way,
+                    const Vec3d& normal, const Vec3d& along, Pose& pose_b, Motion& motion_b) {
+  pose_b.translation += support_point(a, pose_a, normal) - support_point(b, pose_b, -normal);
+  Vec3d inward = pose_a.translation - pose_b.translation;
+  inward /= base::length(inward);
+  if (way == Way::into) {
+    motion_b.displacement = inward;
+    return;
+  }
+  // Halfway it is as far inside as it was moved in.
+  pose_b.translation += 1e-6 * inward - 3 * along;
+  motion_b.displacement = 6 * along;
+}
+
 void add_pair(CastInput& input, std::size_t kind, Way way, base::Random& random) {
   Shape a = make_shape(kind, random), b = make_shape(kind, random);
   Pose pose_a{random.rotation(), random.in_ball()}, pose_b{random.rotation(), {}};
@@ -118,6 +140,9 @@ void add_pair(CastInput& input, std::size_t kind, Way way, base::Random& random)
     const oracle::Enclosure apart =
         oracle::separation_along({solid_a, pose_a}, {solid_b, pose_b}, across);
     pose_b.translation += (apart.upper + 1e-3) * across;
+  }
+  if (way == Way::graze || way == Way::into) {
+    place_in_touch(a, pose_a, b, way, direction, across, pose_b, motion_b);
   }
   if (const double turn = radians(way); turn > 0) {
     motion_a.rotation_vector = random.uniform(0.5, 1) * turn * random.on_sphere();

@@ -87,7 +87,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"triangles", {"simd"}},
     {"features", {}},
     {"rays", {"bvh", "simd"}},
-    {"motion", {"gjk", "minkowski", "rays", "simd"}},
+    {"motion", {"epa", "gjk", "minkowski", "rays", "simd"}},
 };
 
 // The rooms of the harness, from the bottom up: each includes itself and those before it.

@@ -20,8 +20,8 @@
 //          of contact, spheres and capsules by planes at their nearest points (round_lanes), and one by
 //          one as here what is left: contact at the start, grazes, and edges that are nearly parallel.
 // Fails:   unknown / not_converged at the cap. Bodies that graze by less than the tolerance are a hit
-//          without `upper`. With StartContact::approach, bodies that touch at time 0 and for which no
-//          plane is found that they keep to are a hit at 0.
+//          without `upper`. With StartContact::approach, EPA tells bodies that get deeper from those that
+//          keep to a plane (motion/linear/approach.h); it may leave curved bodies unknown / not_converged.
 // Cost:    O(1) space; a few support calls for polytopes, one for each digit for curved bodies. Tolerance:
 //          1e-9 of the larger body's size, or 3e-13 of the greatest of sizes, offset and path if that is
 //          more. Cap: 128 iterations.
@@ -142,6 +142,9 @@ std::vector<CastEntry> cast_gjk_ray_cast() {
       "; boxes in lanes: Gottschalk, Lin, Manocha, \"OBBTree\", SIGGRAPH 1996, "
       "with the time as in Ericson, \"Real-Time Collision Detection\", 2005, "
       "section 5.5.8";
+  lanes.lacks_point = [](ShapeKind kind_a, ShapeKind kind_b) {
+    return kind_a == ShapeKind::box && kind_b == ShapeKind::box;
+  };
   lanes.make = [](const CastSettings& settings) {
     return std::make_unique<GjkRayCast>(settings, true);
   };

@@ -56,6 +56,7 @@ TOUCHSTONE_TARGET inline void cast_lanes(const RoundLane* pairs, LaneTimes* time
   const Vector error =
       Lanes::broadcast(48 * 0x1p-53) * ((length_of(offset) + Lanes::sqrt(square)) +
                                         (Lanes::sqrt(shape.pp) + Lanes::sqrt(shape.qq)) + radius);
+  const Mask is_round = Lanes::less(Lanes::broadcast(0x1p10) * error, radius);
   const Vector near = radius + Lanes::max(tolerance, Lanes::broadcast(4) * error);
 
   Vector time = zero, distance = zero, place = zero, look = zero;
@@ -89,7 +90,8 @@ TOUCHSTONE_TARGET inline void cast_lanes(const RoundLane* pairs, LaneTimes* time
     const Vector reached = start / closing * Lanes::broadcast(1 - 0x1p-50);
     const Mask goes = both(without(opens, passes), Lanes::less(time, reached));
     time = Lanes::select(goes, Lanes::min(reached, one), time);
-    normal = select<double>(goes, n, normal);
+    // Where they touch, the nearest points name it, unless the radii are no more than rounding.
+    normal = select<double>(either(goes, both(touches, is_round)), n, normal);
     speed = Lanes::select(goes, closing, speed);
     // Past the first look, a lane that gains nothing is left open.
     unsigned stays = planes == 0 ? active : Lanes::to_bits(goes);

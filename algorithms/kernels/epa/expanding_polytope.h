@@ -1,5 +1,6 @@
 // EPA: a polytope inside the difference of two bodies grows at the face nearest to the origin. Used
-// by gjk, gjk-templated and gjk-lanes (through gjk_query) and by clipped-faces.
+// by gjk, gjk-templated and gjk-lanes (through gjk_query), by clipped-faces, and by gjk-ray-cast and
+// mpr-ray-cast for bodies that are in contact at the start.
 //
 // The polytope's vertices are points of the difference, so the origin's distance from the nearest
 // face is a lower bound on the depth. A support point along any unit vector gives an upper bound.
@@ -73,20 +74,29 @@ class ExpandingPolytope {
   explicit ExpandingPolytope(int max_iterations);
 
   // The simplex may have any size and contains the origin, possibly on its boundary up to rounding.
-  Expansion<Scalar> expand(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex,
+  // A pair is a SupportPair, or another with its `support`: see expanding_polytope.inl.
+  template <class Pair>
+  Expansion<Scalar> expand(Pair& pair, const Simplex<Scalar>& simplex,
                            const ExpansionGoal<Scalar>& goal);
 
   // The closed surface that the last call left, if its result says that it has one.
   const EpaHull<Scalar>& surface() const { return surface_; }
 
  private:
-  bool grow_to_tetrahedron(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex,
-                           Expansion<Scalar>& result);
+  template <class Pair>
+  bool grow_to_tetrahedron(Pair& pair, Simplex<Scalar>& simplex, Expansion<Scalar>& result);
   bool encloses_origin() const;
   void find_witnesses(const std::array<int, 3>& best, Expansion<Scalar>& result) const;
 
   int max_iterations_;
   EpaHull<Scalar> surface_;
 };
+
+extern template Expansion<float> ExpandingPolytope<float>::expand(SupportPair<float>&,
+                                                                  const Simplex<float>&,
+                                                                  const ExpansionGoal<float>&);
+extern template Expansion<double> ExpandingPolytope<double>::expand(SupportPair<double>&,
+                                                                    const Simplex<double>&,
+                                                                    const ExpansionGoal<double>&);
 
 }  // namespace touchstone

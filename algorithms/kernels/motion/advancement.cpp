@@ -102,9 +102,15 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
 Advancement AdvancementSearch::hit(const SupportPair<double>& pair, const NearestPoints& found,
                                    const Vec3d& normal) {
   const double time = found.time;
-  if (!(time > 0) && !normal.isZero(0)) normal_ = normal;
-  const Vec3d core = found.a + pair.radius_a() * normal_;
-  point_ = motion_.to_world(motion_.centre_a(time) + pair.unit() * core, time);
+  // No plane may have been looked at before, where balls around the bodies meet first.
+  const bool is_first = !(time > 0) || normal_.isZero(0);
+  if (is_first && !normal.isZero(0)) normal_ = normal;
+  // Where the balls around the points meet.
+  Vec3d touch = found.a;
+  if (pair.radius() > 0) {
+    touch += pair.radius_a() / pair.radius() * (found.b + pair.centre_b() - found.a);
+  }
+  point_ = motion_.to_world(motion_.centre_a(time) + pair.unit() * touch, time);
   nearest_ = {time, motion_.centre_a(time) + pair.unit() * found.a,
               motion_.centre_b(time) + pair.unit() * found.b};
   return {Advancement::State::hit, {}};

@@ -30,7 +30,7 @@ class AdvancingCast final : public Cast {
       outcomes[i] = {};
       if (batch.kind_b == ShapeKind::halfspace) {
         cast_halfspace(*a.shape, *a.pose, *a.motion, *b.shape, *b.pose, *b.motion,
-                       {goal_.tolerance.value_or(0)}, outcomes[i]);
+                       {goal_.tolerance, StartContact::counts}, outcomes[i]);
         continue;
       }
       const MotionBounds bounds(a, b);

@@ -17,21 +17,29 @@ void cast_halfspace(const SupportShape<double>& a, const Pose& pose_a, const Mot
   solve(a, pose_a, b, pose_b, Task::distance, start);
   outcome.iterations = 0;
   outcome.status = Status::ok;
+  if (start.answer == Answer::unknown) {
+    outcome.status = Status::not_converged;
+    outcome.lower = 0;
+    return;
+  }
   if (start.answer == Answer::overlapping) {
-    // A depth is needed to tell whether they approach; half-spaces that are not parallel have none.
-    if (goal.start == StartContact::approach) solve(a, pose_a, b, pose_b, Task::penetration, start);
     outcome.answer = CastAnswer::hit;
     outcome.toi = outcome.lower = outcome.upper = 0;
-    if (!(start.distance < 0 && start.lower >= -goal.tolerance)) return;
+    if (goal.start == StartContact::counts) return;
+    // A depth is needed to tell whether they approach; half-spaces that are not parallel have none.
+    solve(a, pose_a, b, pose_b, Task::penetration, start);
+    if (!(start.distance < 0)) return;
   }
   const Vec3d velocity = motion_b.displacement - motion_a.displacement;
   const double along = start.normal.dot(velocity);
   // The normal is off by a few roundings, the product and the difference by as many.
   const double doubt = 32 * std::numeric_limits<double>::epsilon() * velocity.stableNorm();
+  const double tolerance = std::max(goal.tolerance.value_or(two ? 0 : 1e-9 * (a.size + a.radius)),
+                                    start.upper - start.lower + 2 * doubt);
   const double lower_end = start.lower + along - doubt;
   const bool resting = start.lower <= 0;
-  if (goal.start == StartContact::approach && std::min(start.lower, lower_end) >= -goal.tolerance &&
-      resting) {
+  if (goal.start == StartContact::approach && resting &&
+      std::min(start.lower, lower_end) >= -tolerance) {
     outcome.answer = CastAnswer::miss;
     outcome.toi = outcome.lower = outcome.upper = CastOutcome::none;
     return;
@@ -41,7 +49,7 @@ void cast_halfspace(const SupportShape<double>& a, const Pose& pose_a, const Mot
     outcome.answer = CastAnswer::miss;
     return;
   }
-  if (resting && start.upper > goal.tolerance) {
+  if (resting && start.upper > tolerance) {
     outcome.status = Status::not_converged;
     outcome.lower = 0;
     return;

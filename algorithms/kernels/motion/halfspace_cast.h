@@ -2,6 +2,8 @@
 // by all our casts.
 #pragma once
 
+#include <optional>
+
 #include "algorithms/core/cast_outcome.h"
 #include "algorithms/core/motion.h"
 #include "algorithms/core/pose.h"
@@ -9,9 +11,10 @@
 
 namespace touchstone {
 
-// The tolerance of a hit in metres, and how the bodies' contact at time 0 is taken.
+// How the bodies' contact at time 0 is taken, and the tolerance of a hit in metres: by default 1e-9 of the
+// bounded body's size. It is no less than what rounding hides.
 struct HalfspaceCastGoal {
-  double tolerance = 0;
+  std::optional<double> tolerance = {};
   StartContact start = StartContact::counts;
 };
 

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "algorithms/core/bounds.h"
+#include "algorithms/oracle/answer.h"
 
 namespace touchstone::oracle {
 namespace {
@@ -113,6 +114,21 @@ Pose rounded_pose(const EnclosedBody& body, const EnclosedBody& from, double tim
   return {rotation_at(body, time), (offset + time * velocity).cast<double>()};
 }
 
+namespace {
+
+// Writes where the bodies touch at the time of the hit, and the normal there if it is not known yet.
+void write_touch(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b,
+                 CastOutcome& outcome) {
+  const Pose pose_a = rounded_pose(a, a, outcome.toi), pose_b = rounded_pose(b, a, outcome.toi);
+  Outcome touch;
+  answer(oracle, {*a.solid, pose_a}, {*b.solid, pose_b}, Task::signed_distance, touch);
+  outcome.point = touch.witness_a + a.pose->translation + outcome.toi * a.motion->displacement;
+  const double length = touch.normal.norm();
+  if (outcome.normal.hasNaN() && length > 0) outcome.normal = touch.normal / length;
+}
+
+}  // namespace
+
 void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, double tolerance,
              CastOutcome& outcome, std::vector<PartedUntil>* planes) {
   constexpr int most_steps = 20000;
@@ -123,9 +139,12 @@ void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, doubl
   };
   outcome.status = Status::ok;
   outcome.iterations = 0;
-  if (overlap(0)) {
+  // The poses at the start are given, and not rounded.
+  const Answer start = oracle.verdict({*a.solid, *a.pose}, {*b.solid, *b.pose});
+  if (start == Answer::overlapping || start == Answer::touching) {
     outcome.answer = CastAnswer::hit;
     outcome.toi = outcome.lower = outcome.upper = 0;
+    write_touch(oracle, a, b, outcome);
     return;
   }
   double time = 0, tried = std::numeric_limits<double>::infinity();
@@ -151,6 +170,7 @@ void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, doubl
         outcome.toi = time;
         outcome.upper = later;
         if (!bounds.normal.isZero(0)) outcome.normal = bounds.normal;
+        write_touch(oracle, a, b, outcome);
         return;
       }
       if (!(later < 1)) break;

@@ -11,7 +11,7 @@
 //             both are the bracket.
 //          6. Bodies that turn, cylinders, cones, ellipsoids and half-spaces get an enclosure instead:
 //             conservative advancement with the exact distance of poses that are rounded to double, less what
-//             that can change (enclosure).
+//             that can change (enclosure). Contact at the start is decided for the poses that are given.
 //          prove_cast makes a certificate of each answer, which another program verifies.
 // Departs: nothing is rounded but the results: `lower` down and `upper` up to doubles. A miss and a hit
 //          are exact; the bracket is 2^-80 wide before it is rounded. `toi` is its upper end, rounded. An
@@ -101,6 +101,30 @@ Vec3d normal_of(const IntegerVector& z) {
   return normal.normalized();
 }
 
+// A point of both bodies where the search ended in contact at that time, up to rounding.
+Vec3d point_of(const oracle::LinearSearch& search, const Body& a, const Motion& motion_a,
+               const Body& b, const Motion& motion_b, double time) {
+  const std::vector<oracle::DifferencePoint> feature = search.feature();
+  const std::vector<oracle::Integer>& weights = search.nearest().weights;
+  oracle::Integer sum = 0;
+  for (const oracle::Integer& weight : weights) sum += weight;
+  const oracle::Scaled whole = oracle::scaled(sum);
+  const auto placed = [&](const Body& body, const Motion& motion, std::uint32_t vertex) -> Vec3d {
+    return body.matrix * body.solid->vertices[vertex] + body.translation +
+           time * motion.displacement;
+  };
+  Vec3d on_a = Vec3d::Zero(), on_b = Vec3d::Zero();
+  for (std::size_t i = 0; i < feature.size(); ++i) {
+    const oracle::Scaled part = oracle::scaled(weights[i]);
+    const double weight = std::ldexp(part.mantissa / whole.mantissa,
+                                     static_cast<int>(part.exponent - whole.exponent));
+    on_a += weight * placed(a, motion_a, feature[i].a);
+    on_b += weight * placed(b, motion_b, feature[i].b);
+  }
+  const double radii = a.solid->radius + b.solid->radius;
+  return radii > 0 ? Vec3d(on_a + a.solid->radius / radii * (on_b - on_a)) : on_a;
+}
+
 void ExactCast::cast(const Body& a, const Motion& motion_a, const Body& b, const Motion& motion_b,
                      CastOutcome& outcome) {
   constexpr long exponent = -oracle::MovingCores::time_bits;
@@ -119,6 +143,7 @@ void ExactCast::cast(const Body& a, const Motion& motion_a, const Body& b, const
   outcome.lower = oracle::round_down(impact.lower, exponent);
   outcome.toi = outcome.upper = oracle::round_up(impact.upper, exponent);
   if (impact.plane) outcome.normal = normal_of(*impact.plane);
+  outcome.point = point_of(search, a, motion_a, b, motion_b, outcome.toi);
 }
 
 bool supports_exact(ShapeKind, ShapeKind kind_b, bool turns) {

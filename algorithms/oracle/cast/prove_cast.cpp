@@ -182,7 +182,10 @@ void prove_cast(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, do
   certificate.answer = outcome.answer;
   const auto prove_at = [&](double time) {
     Certificate there;
-    const Pose pose_a = rounded_pose(a, a, time), pose_b = rounded_pose(b, a, time);
+    // The poses at the start are given, and not rounded.
+    const bool is_given = !(time > 0);
+    const Pose pose_a = is_given ? *a.pose : rounded_pose(a, a, time);
+    const Pose pose_b = is_given ? *b.pose : rounded_pose(b, a, time);
     oracle.prove({*a.solid, pose_a}, {*b.solid, pose_b}, there);
     return there;
   };

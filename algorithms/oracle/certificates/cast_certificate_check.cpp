@@ -33,7 +33,7 @@ class Track {
   };
   Placed at(const mpq_class& time) const {
     Placed placed{start_, 0};
-    if (turns_) {
+    if (turns_ && time != 0) {
       const EnclosedRotation rotation = rotation_by(time * turn_);
       placed.core.turn(rotation.rows);
       // A row of three entries that are off by the error.

@@ -85,8 +85,9 @@ TEST(Cells, OfCasts) {
   const auto request =
       request_of(folder,
                  "kind = \"casts\"\nshapes = [\"sphere\", \"box\"]\nqueries = 16\n"
-                 "ways = [\"hit\", \"miss by 1e-3\", \"overlapping at the start\"]\n");
-  ASSERT_EQ(request.cells.size(), 6U);
+                 "ways = [\"hit\", \"miss by 1e-3\", \"overlapping at the start\", "
+                 "\"grazing by 1e-6\", \"going in from a touch\"]\n");
+  ASSERT_EQ(request.cells.size(), 10U);
   expect_sound(run(request, folder.path() / "out"), request.cells.size());
 }
 

@@ -1,14 +1,9 @@
-// Used by gjk-ray-cast and mpr-ray-cast: proofs about bodies in contact, by GJK at fixed times.
+// Used by gjk-ray-cast and mpr-ray-cast: the proof that bodies are in contact at a time.
 #pragma once
 
 #include "algorithms/kernels/motion/linear/moving_pair.h"
 
 namespace touchstone {
-
-// Returns true if it finds a plane along which the bodies are no deeper than the tolerance (in the
-// pair's unit) in each other at time 0 and at time 1, and so at any time between. GJK finds it:
-// between the difference and the segment that the offset moves along.
-bool never_deeper(MovingPair& pair, double tolerance, int most_iterations, int& iterations);
 
 // Returns true if the bodies share a point at that time, whatever rounding did: the hull of a point of
 // the simplex and of the ball inside of the difference contains the origin, or a tetrahedron surely does,

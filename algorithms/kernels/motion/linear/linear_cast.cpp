@@ -90,31 +90,30 @@ double LinearCast::tolerance(std::uint32_t shape_a, std::uint32_t shape_b) const
   return settings_.tolerance.value_or(1e-9 * std::max(scene_.size(shape_a), scene_.size(shape_b)));
 }
 
-void LinearCast::solve(const CastBatch& batch, std::size_t i, CastOutcome& outcome) const {
+void LinearCast::solve(const CastBatch& batch, std::size_t i, CastOutcome& outcome) {
   const MovingBody a = scene_.body(batch, batch.pairs.first[i]);
   const MovingBody b = scene_.body(batch, batch.pairs.second[i]);
   outcome = {};
   if (batch.kind_b == ShapeKind::halfspace) {
     cast_halfspace(*a.shape, *a.pose, *a.motion, *b.shape, *b.pose, *b.motion,
-                   {settings_.tolerance.value_or(0), settings_.start}, outcome);
+                   {settings_.tolerance, settings_.start}, outcome);
   } else {
     cast_bounded(a, b, outcome);
   }
 }
 
-void LinearCast::solve(const CastBatch& batch, std::span<CastOutcome> outcomes) const {
+void LinearCast::solve(const CastBatch& batch, std::span<CastOutcome> outcomes) {
   for (std::size_t i = 0; i < batch.size(); ++i) solve(batch, i, outcomes[i]);
 }
 
-void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b,
-                              CastOutcome& outcome) const {
+void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b, CastOutcome& outcome) {
   constexpr double rounding = MovingPair::rounding;
   outcome.status = Status::ok;
   outcome.iterations = 0;
   const CentreOffset offset = centre_offset(*a.shape, *a.pose, *b.shape, *b.pose);
   const double reach_a = outer_reach(a), reach_b = outer_reach(b);
-  const BallVerdict balls =
-      ask_balls(offset, a, b, reach_a + reach_b, settings_.tolerance.value_or(0));
+  const double metres = settings_.tolerance.value_or(1e-9 * std::max(reach_a, reach_b));
+  const BallVerdict balls = ask_balls(offset, a, b, reach_a + reach_b, metres);
   if (balls == BallVerdict::miss) {
     outcome.answer = CastAnswer::miss;
     return;
@@ -132,10 +131,8 @@ void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b,
     return;
   }
   PathContact found;
-  const double asked = settings_.tolerance ? *settings_.tolerance / pair.unit()
-                                           : 1e-9 * std::max(reach_a, reach_b) / pair.unit();
   // A gap that rounding hides can be told neither from contact nor from a miss.
-  const double tolerance = std::max(asked, 4 * rounding);
+  const double tolerance = std::max(metres / pair.unit(), 4 * rounding);
   const PathEnd end = search_(pair, tolerance, most_iterations_, found);
   outcome.iterations = found.iterations;
   if (end == PathEnd::miss) {
@@ -148,11 +145,17 @@ void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b,
     return;
   }
   const bool at_start = !(pair.time() > 0);
-  if (at_start && settings_.start == StartContact::approach &&
-      never_deeper(pair, tolerance, most_iterations_, outcome.iterations)) {
-    outcome.answer = CastAnswer::miss;
-    outcome.lower = CastOutcome::none;
-    return;
+  if (at_start && approach_) {
+    const Approach approach = approach_->ask(pair, tolerance, outcome.iterations);
+    if (approach == Approach::unknown) {
+      outcome.status = Status::not_converged;
+      return;
+    }
+    if (approach == Approach::no) {
+      outcome.answer = CastAnswer::miss;
+      outcome.lower = CastOutcome::none;
+      return;
+    }
   }
   outcome.answer = CastAnswer::hit;
   outcome.toi = pair.time();
@@ -167,7 +170,7 @@ void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b,
   }
   const DifferencePoint<double> witness = weighted_mean(feature);
   outcome.point = a.pose->rotation * a.shape->centre + a.pose->translation +
-                  outcome.toi * a.motion->displacement + pair.unit() * pair.on_a(witness, normal);
+                  outcome.toi * a.motion->displacement + pair.unit() * pair.between_balls(witness);
 
   pair.set_inner_radius(a.inner_radius() + b.inner_radius());
   found.simplex = feature;

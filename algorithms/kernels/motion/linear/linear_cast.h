@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "algorithms/cast.h"
+#include "algorithms/kernels/motion/linear/approach.h"
 #include "algorithms/kernels/motion/linear/moving_pair.h"
 #include "algorithms/kernels/motion/moving_scene.h"
 
@@ -41,21 +43,24 @@ class LinearCast {
   LinearCast(const CastSettings& settings, PathSearch search)
       : settings_(settings),
         most_iterations_(std::max(1, settings.max_iterations.value_or(128))),
-        search_(search) {}
+        search_(search) {
+    if (settings.start == StartContact::approach) approach_.emplace(most_iterations_);
+  }
 
   void bind(std::span<const Shape> shapes) { scene_.bind(shapes); }
-  void solve(const CastBatch& batch, std::size_t i, CastOutcome& outcome) const;
+  void solve(const CastBatch& batch, std::size_t i, CastOutcome& outcome);
   // All pairs, one after the other.
-  void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) const;
+  void solve(const CastBatch& batch, std::span<CastOutcome> outcomes);
   // Metres, for a pair of shapes of the scene.
   double tolerance(std::uint32_t shape_a, std::uint32_t shape_b) const;
 
  private:
-  void cast_bounded(const MovingBody& a, const MovingBody& b, CastOutcome& outcome) const;
+  void cast_bounded(const MovingBody& a, const MovingBody& b, CastOutcome& outcome);
 
   CastSettings settings_;
   int most_iterations_;
   PathSearch search_;
+  std::optional<ApproachTest> approach_;  // for StartContact::approach
   MovingScene scene_;
 };
 

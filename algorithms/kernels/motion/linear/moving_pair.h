@@ -60,8 +60,10 @@ class MovingPair {
   // The radius of a ball about -offset() that the difference of the cores holds, or 0.
   double inner_radius() const { return inner_radius_; }
   void set_inner_radius(double metres) { inner_radius_ = metres / unit_; }
-  Vec3d on_a(const DifferencePoint<double>& point, const Vec3d& normal) const {
-    return point.a + a_.radius() * normal;
+  // Where the balls around two points of the cores meet, relative to a's centre. The line between the points
+  // has no use for a normal, which is off by the root of the tolerance.
+  Vec3d between_balls(const DifferencePoint<double>& point) const {
+    return radius() > 0 ? Vec3d(point.a - a_.radius() / radius() * point.difference) : point.a;
   }
 
  private:

@@ -3,18 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
-#include "algorithms/core/bounds.h"
-#include "algorithms/oracle/oracle.h"
-#include "algorithms/oracle/solid.h"
 #include "harness/check/kinds/blocks/cast_forms.h"
+#include "harness/check/kinds/blocks/cast_truths.h"
 #include "harness/check/kinds/blocks/drawn_cases.h"
 #include "harness/check/kinds/blocks/grading.h"
-#include "harness/families/moving_pairs.h"
 #include "harness/files/text_file.h"
 #include "harness/process/queries/solve_cast.h"
 
@@ -22,19 +19,6 @@ namespace touchstone::check {
 namespace {
 
 using files::CastCase;
-
-// The greatest magnitude of a coordinate of both bodies and their motions (metres).
-double reach_of_motion(const CastCase& c) {
-  double reach = std::numeric_limits<double>::min();
-  const auto add = [&](const Shape& shape, const Pose& pose, const Motion& motion) {
-    reach = std::max({reach, double{loose_reach(shape, pose.rotation)} +
-                                 pose.translation.cwiseAbs().maxCoeff() +
-                                 motion.displacement.cwiseAbs().maxCoeff()});
-  };
-  add(c.shape_a, c.pose_a, c.motion_a);
-  add(c.shape_b, c.pose_b, c.motion_b);
-  return reach;
-}
 
 // Cases of one call; a crash costs them all.
 constexpr std::size_t casts_of_a_call = 24;
@@ -68,6 +52,13 @@ void solve_call(const CastEntry& entry, const CastSettings& settings, const Cast
   }
 }
 
+void put_far_away(CastCase& c) {
+  const double size = std::exp2(std::floor(std::log2(span_of_motion(c))));
+  for (Pose* pose : {&c.pose_a, &c.pose_b}) {
+    pose->translation += 0x1p20 * size * Vec3d(1, -1, 0.5);
+  }
+}
+
 class CastBlock final : public CaseBlock {
  public:
   CastBlock(std::uint32_t number, const BlockRange& range)
@@ -75,9 +66,11 @@ class CastBlock final : public CaseBlock {
     for (std::uint64_t index = range.first; index < range.first + range.count; ++index) {
       auto draws = draws_of(CaseKind::cast, number, range.seed, index);
       CastCase& c = cases_.emplace_back(family_.draw(draws, index));
+      // A translation by a million sizes, which rounds the coordinates; the values of an axis would be lost.
+      if (family_.axis.empty() && draws.below(6) == 0) put_far_away(c);
       c.id = fmt::format("{}/{}", family_.name, index);
-      reaches_.push_back(reach_of_motion(c));
     }
+    truths_.emplace(cases_);
   }
 
   std::vector<GradedCase> ask(const Contestant& contestant, CaseForm form,
@@ -166,61 +159,30 @@ class CastBlock final : public CaseBlock {
   }
   double tolerance_of(const Contestant& contestant, std::size_t i) const {
     // A power of two, so that many cases have the same.
-    return std::exp2(std::floor(std::log2(reaches_[i]))) *
+    return std::exp2(std::floor(std::log2(span_of_motion(cases_[i])))) *
            (contestant.scalar == Precision::float64 ? 1e-9 : 1e-4);
-  }
-
-  const CastOutcome& truth(std::size_t i) {
-    truths_.resize(cases_.size());
-    if (!truths_[i]) truths_[i] = process::solve_cast(*find_cast("exact"), {}, cases_[i]);
-    return *truths_[i];
-  }
-
-  // The exact answer where contact counts only if the bodies approach: unknown where they get no deeper
-  // than the tolerance into each other, and no plane is known that decides.
-  CastOutcome truth_of_approach(std::size_t i, double tolerance) {
-    CastOutcome exact = truth(i);
-    if (exact.answer != CastAnswer::hit) return exact;
-    const CastCase& c = cases_[i];
-    const oracle::Solid a(c.shape_a), b(c.shape_b);
-    constexpr int looks = 8;
-    for (int look = 0; look <= looks; ++look) {
-      const double time = exact.upper + (1 - exact.upper) * look / looks;
-      const oracle::Body at_a(a, families::pose_at(c.pose_a, c.motion_a, time));
-      const oracle::Body at_b(b, families::pose_at(c.pose_b, c.motion_b, time));
-      const double depth = -oracle_.measure(at_a, at_b).upper;
-      if (depth > 1.01 * tolerance + 1e-15 * reaches_[i]) return exact;
-    }
-    if (exact.lower > 0) {
-      exact.answer = CastAnswer::unknown;
-      return exact;
-    }
-    const Vec3d way = c.motion_b.displacement - c.motion_a.displacement;
-    if (way.isZero(0)) return {.answer = CastAnswer::miss, .status = Status::ok};
-    if (family_.touches_along_x && way.x() >= 0) {
-      return {.answer = CastAnswer::miss, .status = Status::ok};
-    }
-    if (!family_.touches_along_x || -way.x() <= 2 * tolerance) exact.answer = CastAnswer::unknown;
-    return exact;
-  }
-
-  // True if the bodies are further apart at the time than the tolerance, and rounding of their places.
-  bool is_apart(std::size_t i, double time, double tolerance) {
-    const CastCase& c = cases_[i];
-    if (!(time >= 0 && time <= 1)) return true;
-    const oracle::Solid a(c.shape_a), b(c.shape_b);
-    const oracle::Body at_a(a, families::pose_at(c.pose_a, c.motion_a, time));
-    const oracle::Body at_b(b, families::pose_at(c.pose_b, c.motion_b, time));
-    const double turns = 1 + c.motion_a.rotation_vector.norm() + c.motion_b.rotation_vector.norm();
-    return oracle_.measure(at_a, at_b).lower > 1.01 * tolerance + 1e-15 * turns * reaches_[i];
   }
 
   GradedCase grade(const Contestant& contestant, std::size_t i, const CastOutcome& outcome,
                    CaseForm form) {
     const double tolerance = tolerance_of(contestant, i);
-    const CastOutcome exact = settings_of(contestant).start == StartContact::approach
-                                  ? truth_of_approach(i, tolerance)
-                                  : truth(i);
+    const bool approach = settings_of(contestant).start == StartContact::approach;
+    const CastOutcome exact = approach ? truths_->of_approach(i, tolerance) : truths_->of(i);
+    const GradedCase graded = grade(contestant, i, outcome, form, exact);
+    const bool is_silent = graded.grade == CaseGrade::missed ||
+                           graded.grade == CaseGrade::false_hit || graded.grade == CaseGrade::wrong;
+    if (!is_silent || !rounds(cases_[i], form)) return graded;
+    CastCallAnswer answer;
+    const FormNumbers numbers(range_.seed, range_.first + i);
+    solve_call(*find_cast("exact"), {}, {0, {i}, {parts_in_form(cases_[i], numbers, form)}},
+               answer);
+    return grade(contestant, i, outcome, form, answer.outcomes[0]);
+  }
+
+  GradedCase grade(const Contestant& contestant, std::size_t i, const CastOutcome& outcome,
+                   CaseForm form, const CastOutcome& exact) {
+    const double tolerance = tolerance_of(contestant, i);
+    const bool approach = settings_of(contestant).start == StartContact::approach;
     const bool is_contact = exact.answer == CastAnswer::hit;
     const auto with = [&](CaseGrade grade) { return GradedCase{grade, is_contact}; };
     const bool is_unknown = outcome.answer == CastAnswer::unknown;
@@ -233,7 +195,9 @@ class CastBlock final : public CaseBlock {
     if (contact && !is_contact) {
       const bool proven = !std::isnan(outcome.upper);
       if (proven && contestant.info().origin != Origin::peer) return with(CaseGrade::false_hit);
-      return with(is_apart(i, time, tolerance) ? CaseGrade::false_hit : CaseGrade::near);
+      // The tolerance allows for no hit at the start of bodies that do not approach.
+      if (approach && !(time > 0)) return with(CaseGrade::false_hit);
+      return with(truths_->is_apart(i, time, tolerance) ? CaseGrade::false_hit : CaseGrade::near);
     }
     if (contact && !is_backward && is_off(contestant, i, outcome, exact, tolerance)) {
       return with(CaseGrade::wrong);
@@ -250,19 +214,17 @@ class CastBlock final : public CaseBlock {
     // What is late is later than the tolerance takes, in a peer; ours are in time but for rounding.
     const double path =
         (c.motion_b.displacement - c.motion_a.displacement).norm() +
-        reaches_[i] * (c.motion_a.rotation_vector.norm() + c.motion_b.rotation_vector.norm());
+        truths_->reach(i) * (c.motion_a.rotation_vector.norm() + c.motion_b.rotation_vector.norm());
     const bool promised = contestant.info().origin != Origin::peer;
     const double late = promised || path == 0 ? 1e-14 : tolerance / path;
     if (!(outcome.toi <= exact.upper + late)) return true;
-    return outcome.toi < exact.lower && is_apart(i, outcome.toi, tolerance);
+    return outcome.toi < exact.lower && truths_->is_apart(i, outcome.toi, tolerance);
   }
 
   const DrawnFamily<CastCase>& family_;
   BlockRange range_;
   std::vector<CastCase> cases_;
-  std::vector<double> reaches_;
-  std::vector<std::optional<CastOutcome>> truths_;
-  oracle::Oracle oracle_;
+  std::optional<CastTruths> truths_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "harness/families/moving_pairs.h"
 #include "harness/geometry/shapes/scaled_shape.h"
 #include "harness/process/queries/solve_cast.h"
 
@@ -40,10 +41,15 @@ std::optional<CastCase> moved_case(CastCase c, const FormNumbers& numbers) {
   return c;
 }
 
-// The motion from a part of the time to its end, for bodies that do not turn.
+// The motion from a part of the time to its end. The poses of bodies that turn are rounded there.
 std::optional<CastCase> from_time(CastCase c, double time) {
+  const bool turns = process::turns(c);
   for (const auto& [pose, motion] :
        {std::pair(&c.pose_a, &c.motion_a), std::pair(&c.pose_b, &c.motion_b)}) {
+    if (turns) {
+      *pose = families::pose_at(*pose, *motion, time);
+      continue;
+    }
     const auto sum = exact_sum(pose->translation, time * motion->displacement);
     if (!sum) return std::nullopt;
     pose->translation = *sum;
@@ -52,8 +58,10 @@ std::optional<CastCase> from_time(CastCase c, double time) {
 }
 
 void multiply_motion(CastCase& c, double factor) {
-  c.motion_a.displacement *= factor;
-  c.motion_b.displacement *= factor;
+  for (Motion* motion : {&c.motion_a, &c.motion_b}) {
+    motion->displacement *= factor;
+    motion->rotation_vector *= factor;
+  }
 }
 
 }  // namespace
@@ -68,14 +76,12 @@ CastParts parts_in_form(const CastCase& c, const FormNumbers& numbers, CaseForm 
       return moved ? CastParts{*moved} : CastParts{};
     }
     case CaseForm::reversed: {
-      if (process::turns(c)) return {};
       auto end = from_time(c, 1);
       if (!end) return {};
       multiply_motion(*end, -1);
       return {*end};
     }
     case CaseForm::split: {
-      if (process::turns(c)) return {};
       auto second = from_time(c, 0.5);
       if (!second) return {};
       CastCase first = c;
@@ -85,6 +91,10 @@ CastParts parts_in_form(const CastCase& c, const FormNumbers& numbers, CaseForm 
     }
   }
   return {};
+}
+
+bool rounds(const CastCase& c, CaseForm form) {
+  return process::turns(c) && (form == CaseForm::reversed || form == CaseForm::split);
 }
 
 }  // namespace touchstone::check

@@ -19,8 +19,6 @@ struct DrawnFamily {
   int one_in = 1;
   // Draws the case of an index, without its id.
   std::function<Case(families::Draws& draws, std::uint64_t index)> draw;
-  // True of moving bodies that touch at the start with faces, or a face and a ball, along x alone.
-  bool touches_along_x = false;
   // Of a family that is a value of an axis of stress; empty for others.
   std::string axis = {}, value = {};
 };

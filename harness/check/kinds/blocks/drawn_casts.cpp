@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/check/kinds/blocks/drawn_cases.h"
+#include "harness/families/grid_touches.h"
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/families/turning_pairs.h"
@@ -102,17 +103,8 @@ CastCase on_a_grid(Draws& draws, std::uint64_t /*index*/) {
   return case_of(c);
 }
 
-// Bodies that touch at the start on a grid, and go into each other, apart or along.
 CastCase from_touch(Draws& draws, std::uint64_t index) {
-  MovingPairCase c;
-  c.a = families::box_shape({1, 1, 1});
-  c.b = draws.below(2) == 0 ? families::box_shape({0.5, 0.5, 0.5})
-                            : families::round_shape(ShapeKind::sphere, 0.5, 0);
-  c.pose_b.translation = {1.5, draws.below(5) / 4.0 - 0.5, 0};
-  Vec3d velocity = families::on_grid(draws.vector(1));
-  if (index % 3 == 0) velocity.x() = 0;
-  c.motion_b.displacement = velocity;
-  return case_of(c);
+  return case_of(families::touching_on_grid(static_cast<families::AfterTouch>(index % 4), draws));
 }
 
 CastCase overlapping(Draws& draws, std::uint64_t index) {
@@ -133,9 +125,9 @@ CastCase thin_plate(Draws& draws, std::uint64_t index) {
   return case_of(c);
 }
 
-CastCase turning(double radians, Draws& draws, std::uint64_t /*index*/) {
+MovingPairCase any_turning(double radians, Draws& draws) {
   const ShapeKind a = quick_kind(draws), b = quick_kind(draws);
-  return case_of(families::turning(a, b, radians, draws));
+  return families::turning(a, b, radians, draws);
 }
 
 void add_axes_of_motion(std::vector<DrawnFamily<CastCase>>& list) {
@@ -146,7 +138,7 @@ void add_axes_of_motion(std::vector<DrawnFamily<CastCase>>& list) {
                       [draw, size = at.value](Draws& draws, std::uint64_t index) {
                         return draw(size, draws, index);
                       },
-                      false, axis, at.name});
+                      axis, at.name});
     }
   };
   add("cast-speed", decades(0, 12), 1, [](double path, Draws& draws, std::uint64_t index) {
@@ -171,7 +163,9 @@ void add_axes_of_motion(std::vector<DrawnFamily<CastCase>>& list) {
   std::vector<AxisValue> turns;
   for (int e = -3; e <= 8; ++e)
     turns.push_back({fmt::format("{:g}", std::ldexp(1, e)), std::ldexp(1, e)});
-  add("cast-turn", turns, 8, turning);
+  add("cast-turn", turns, 8, [](double radians, Draws& draws, std::uint64_t) {
+    return case_of(any_turning(radians, draws));
+  });
 }
 
 }  // namespace
@@ -199,35 +193,43 @@ std::span<const DrawnFamily<CastCase>> cast_families() {
     }
     add("casts-on-a-grid", on_a_grid);
     add("casts-from-touch", from_touch);
-    list.back().touches_along_x = true;
     add("casts-overlapping", overlapping);
     add("casts-alike", alike);
     add("casts-far-path", far_path);
     add("casts-thin-plate", thin_plate);
     add("casts-every-scale", every_scale);
+    // Of every size, by 2^-20 to 2^20.
     const auto turn = [&](const char* name, int one_in, auto draw) {
-      list.push_back({name, "turns", one_in, draw});
+      list.push_back({name, "turns", one_in, [draw](Draws& draws, std::uint64_t index) {
+                        const MovingPairCase c = draw(draws, index);
+                        return case_of(families::scaled(c, std::ldexp(1, draws.below(41) - 20)));
+                      }});
     };
     constexpr std::array<std::pair<const char*, double>, 3> turns = {
         {{"turns-half-a-radian", 0.5}, {"turns-3-radians", 3}, {"turns-30-radians", 30}}};
     for (const auto& [name, radians] : turns) {
-      turn(name, 8, [radians = radians](Draws& draws, std::uint64_t index) {
-        return turning(radians, draws, index);
+      turn(name, 8, [radians = radians](Draws& draws, std::uint64_t) {
+        return any_turning(radians, draws);
       });
     }
     turn("turns-needle", 8, [](Draws& draws, std::uint64_t index) {
-      return case_of(families::turning_needle(index % 2 == 0, draws));
+      return families::turning_needle(index % 2 == 0, draws);
     });
     turn("turns-several", 8, [](Draws& draws, std::uint64_t index) {
-      return case_of(families::sinking_rod(index % 2 == 0, draws));
+      return families::sinking_rod(index % 2 == 0, draws);
     });
     turn("turns-far-pivot", 8, [](Draws& draws, std::uint64_t index) {
-      return case_of(families::far_pivot(index % 2 == 0, draws));
+      return families::far_pivot(index % 2 == 0, draws);
     });
-    turn("turns-tangential", 8, [](Draws& draws, std::uint64_t index) {
+    turn("turns-tangential", 8, [](Draws&, std::uint64_t index) {
       constexpr std::array corners = {1e-2, 1e-5, 1e-7, -1e-7, -1e-5, -1e-2};
-      const double scale = std::ldexp(1, draws.below(41) - 20);
-      return case_of(scaled(families::passing_corner(corners[index % corners.size()]), scale));
+      return families::passing_corner(corners[index % corners.size()]);
+    });
+    turn("turns-from-touch", 8, [](Draws& draws, std::uint64_t index) {
+      const auto after = static_cast<families::AfterTouch>(index % 4);
+      MovingPairCase c = families::touching_on_grid(after, draws);
+      c.motion_b.rotation_vector = draws.vector(1);
+      return c;
     });
     add_axes_of_motion(list);
     return list;

@@ -203,8 +203,8 @@ void add_axes(std::vector<DrawnFamily<ConcaveCase>>& list) {
     for (const AxisValue& at : decades(first, last)) {
       list.push_back(
           {fmt::format("{}-{}", axis, at.name), "axes", 1,
-           [draw, size = at.value](Draws& draws, std::uint64_t) { return draw(size, draws); },
-           false, axis, at.name});
+           [draw, size = at.value](Draws& draws, std::uint64_t) { return draw(size, draws); }, axis,
+           at.name});
     }
   };
   const auto sized = [](families::TrianglePair (*make)(Draws&, double)) {
