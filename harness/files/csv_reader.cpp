@@ -11,13 +11,12 @@
 #include <utility>
 
 #include "harness/base/error.h"
+#include "harness/base/file_text.h"
 #include "harness/files/csv.h"
 #include "harness/files/line_reader.h"
 
 namespace touchstone::files {
 namespace {
-
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 // Parses the whole of `text` as a number, or throws the reason why it is none.
 template <class Number>
@@ -27,10 +26,12 @@ Number parse(const CsvReader::Row& row, std::string_view name, std::string_view 
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error == std::errc::result_out_of_range) {
-    row.fail(fmt::format("column {}: {} is out of range; expected {}", name, text, expected));
+    row.fail(fmt::format("column {}: {} is out of range; expected {}", name, base::shortened(text),
+                         expected));
   }
   if (error != std::errc{} || stop != end) {
-    row.fail(fmt::format("column {}: found '{}'; expected {}", name, text, expected));
+    row.fail(
+        fmt::format("column {}: found '{}'; expected {}", name, base::shortened(text), expected));
   }
   return value;
 }
@@ -80,8 +81,7 @@ void for_each_row(const std::string& file,
   };
   while (const std::optional<std::string_view> line = lines.next()) {
     ++number;
-    std::string_view text = *line;
-    if (number == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(3);
+    const std::string_view text = number == 1 ? base::without_byte_order_mark(*line) : *line;
     if (text.find('\0') != std::string_view::npos) {
       throw base::InputError(file, number, "a NUL byte; expected text");
     }

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "harness/base/file_text.h"
+
 namespace touchstone::files {
 namespace {
 
@@ -17,7 +19,7 @@ Json parse_line(const std::string& file, std::int64_t number, std::string_view t
     std::string message = error.what();
     if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
     if (message.starts_with("parse error at line 1, ")) message.erase(0, 23);
-    throw base::InputError(file, number, "malformed JSON: " + message);
+    throw base::InputError(file, number, "malformed JSON: " + base::shortened(message, 200));
   }
 }
 
@@ -37,8 +39,7 @@ void for_each_json_line(const std::filesystem::path& path, std::string_view what
   bool any = false;
   std::string line;
   for (std::int64_t number = 1; std::getline(stream, line); ++number) {
-    std::string_view text = line;
-    if (number == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const std::string_view text = number == 1 ? base::without_byte_order_mark(line) : line;
     if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     const Json value = parse_line(file, number, text);
     any = true;

@@ -13,13 +13,11 @@
 namespace touchstone::geometry {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-// A token as a message quotes it: shortened, with unprintable characters replaced.
+// A token as a message quotes it.
 std::string shown(std::string_view token) {
-  std::string text = token.empty() ? "nothing" : "'";
-  for (char c : token.substr(0, 40)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
-  return token.empty() ? text : text + "'";
+  return token.empty() ? "nothing" : "'" + base::shortened(token) + "'";
 }
 
 std::string_view without_plus(std::string_view token) {
@@ -34,9 +32,11 @@ bool TextCursor::next_line() {
     line_ = {};
     return false;
   }
-  const std::size_t end = rest_.find('\n');
-  line_ = rest_.substr(0, end);
-  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  const auto end =
+      std::find_if(rest_.begin(), rest_.end(), [](char c) { return c == '\n' || c == '\r'; });
+  line_ = std::string_view(rest_.begin(), end);
+  rest_ = std::string_view(end, rest_.end());
+  rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
   ++line_number_;
   return true;
 }
@@ -123,6 +123,14 @@ Mesh read_mesh(const std::filesystem::path& file) {
   Mesh mesh = reader(file.string(), text);
   if (mesh.vertices.empty()) {
     throw base::InputError(file.string(), 0, "the mesh has no vertices; expected at least one");
+  }
+  return mesh;
+}
+
+Mesh read_surface(const std::filesystem::path& file) {
+  Mesh mesh = read_mesh(file);
+  if (mesh.triangles.empty()) {
+    throw base::InputError(file.string(), 0, "the mesh has no faces; expected at least one");
   }
   return mesh;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "harness/base/error.h"
+#include "harness/base/file_text.h"
 #include "harness/geometry/mesh.h"
 
 namespace touchstone::geometry {
@@ -18,10 +19,12 @@ Mesh read_off(const std::string& file, std::string_view text);
 Mesh read_stl(const std::string& file, std::string_view text);
 Mesh read_ply(const std::string& file, std::string_view text);
 
-// Reads a text line by line (LF or CRLF), and a line token by token.
+// Reads a text line by line (LF, CRLF or CR), and a line token by token. A byte-order mark in front is left
+// out.
 class TextCursor {
  public:
-  TextCursor(const std::string& file, std::string_view text) : file_(file), rest_(text) {}
+  TextCursor(const std::string& file, std::string_view text)
+      : file_(file), rest_(base::without_byte_order_mark(text)) {}
 
   // Advances to the next line; false after the last one.
   bool next_line();
@@ -52,7 +55,7 @@ class TextCursor {
   std::int64_t line_number_ = 0;
 };
 
-// Splits a polygon into triangles around its first corner.
+// Splits a polygon into triangles around its first corner. They cover it if it is convex.
 void add_fan(Mesh& mesh, std::span<const std::uint32_t> polygon);
 
 }  // namespace touchstone::geometry

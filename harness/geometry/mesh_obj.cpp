@@ -14,16 +14,23 @@ Mesh read_obj(const std::string& file, std::string_view text) {
       mesh.vertices.push_back(cursor.point());
     } else if (keyword == "f") {
       polygon.clear();
-      for (std::string_view token = cursor.token(); !token.empty(); token = cursor.token()) {
-        if (token == "\\") {  // the line continues on the next
+      bool goes_on = false;  // on the next line, behind a backslash
+      for (std::string_view token = cursor.token(); !token.empty() || goes_on;
+           token = cursor.token()) {
+        if (goes_on) {
+          if (!token.empty()) cursor.fail("expected the line's end behind the backslash");
           if (!cursor.next_filled_line()) cursor.fail("the file ends early; expected a face");
+          goes_on = false;
           continue;
         }
+        goes_on = token.ends_with('\\');
+        if (goes_on) token.remove_suffix(1);
+        if (token.empty()) continue;
         const std::int64_t count = static_cast<std::int64_t>(mesh.vertices.size());
         std::int64_t index = cursor.to_integer(token.substr(0, token.find('/')));
         if (index < 0) index += count + 1;  // -1 is the last vertex so far
         if (index < 1 || index > INT64_C(0xffffffff)) {
-          cursor.fail("vertex index '" + std::string(token) + "' out of range; there are " +
+          cursor.fail("vertex index '" + base::shortened(token) + "' out of range; there are " +
                       std::to_string(count) + " vertices so far");
         }
         if (index > highest) {

@@ -6,6 +6,8 @@
 //        3. The two intervals on the line in which the planes cross overlap if two volumes of a corner
 //           and an edge are not positive.
 //        4. Triangles in one plane are tested there.
+// Fails: where rounding hides the sign of a volume. Triangles that touch, nearly touch or lie nearly in
+//        one plane are decided either way, and so are those without area, which have no plane.
 #include <array>
 #include <utility>
 

@@ -5,6 +5,9 @@
 //           along the axis on which the line is longest.
 //        3. Triangles in one plane: an edge crosses an edge, or a corner of one is in the other.
 // Departs: the paper's code sets heights below 1e-6 to zero; here each is taken as it comes.
+// Fails:   where rounding hides the sign of a height or the order of two ends. Triangles that touch,
+//          nearly touch or lie nearly in one plane are decided either way, and so are those without
+//          area, which have no plane.
 #include <algorithm>
 #include <array>
 #include <cmath>

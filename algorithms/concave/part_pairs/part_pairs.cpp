@@ -21,7 +21,7 @@
 //          6. measure: the narrow phase gives each pair's depth and normal. Where these are to be welded,
 //             a normal that the mesh around does not support gives way to the face's (welding).
 // Departs: `moller` and `guigue-devillers` decide each pair of triangles in doubles, as their papers
-//          do, and are wrong where rounding is.
+//          do, and are wrong where rounding is: their status is not_reported.
 // Fails:   poses of parts within turned compounds are rounded; where that hides a verdict the answer
 //          is unknown and the status degenerate. Each pair in which rounding hides a sign costs some
 //          microseconds, so that a mesh on itself is slow.
@@ -44,9 +44,11 @@ namespace {
 
 class PartPairs final : public ConcavePhase {
  public:
-  // A null test makes `fused`.
-  PartPairs(const ConcaveSettings& settings, RoughTest test)
-      : trees_(std::make_shared<MeshTrees>()), convex_pairs_(settings.narrow_phase) {
+  // A null test makes `fused`. `answered` is the status of an answer that is there.
+  PartPairs(const ConcaveSettings& settings, RoughTest test, Status answered)
+      : answered_(answered),
+        trees_(std::make_shared<MeshTrees>()),
+        convex_pairs_(settings.narrow_phase) {
     if (settings.welds) welding_.emplace();
     if (test == nullptr) {
       mesh_pairs_ = fused_pairs(trees_);
@@ -84,7 +86,7 @@ class PartPairs final : public ConcavePhase {
 
   void solve(ConcaveTask task, const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome,
              std::vector<IndexPair>& pairs) override {
-    outcome.status = Status::ok;
+    outcome.status = answered_;
     pairs.clear();
     enclose(a);
     enclose(b);
@@ -108,7 +110,7 @@ class PartPairs final : public ConcavePhase {
     if (undecided) outcome.status = *undecided;
     if (!pairs.empty() || is_inside(a, b)) {
       outcome.answer = Answer::overlapping;
-      if (!all) outcome.status = Status::ok;
+      if (!all) outcome.status = answered_;
     } else {
       outcome.answer = undecided ? Answer::unknown : Answer::separated;
     }
@@ -212,6 +214,7 @@ class PartPairs final : public ConcavePhase {
            (second.is_solid() && lies_inside(first, a.pose, second, b.pose));
   }
 
+  Status answered_;
   std::vector<BoundBody> bodies_;
   std::shared_ptr<MeshTrees> trees_;  // of `fused`
   std::function<std::unique_ptr<MidPhase>()> make_mid_phase_;
@@ -229,12 +232,27 @@ ConcaveEntry entry(const char* name, const char* citation, RoughTest test) {
   return {.info = {.name = name, .citation = citation},
           .tasks = {ConcaveTask::intersect, ConcaveTask::distance, ConcaveTask::contacts},
           .scalars = {Precision::float64},
+          .takes_mid_phase = test != nullptr,
+          .measures = true,
+          .welds = true,
           .make = [test](const ConcaveSettings& settings) {
-            return std::make_unique<PartPairs>(settings, test);
+            return std::make_unique<PartPairs>(settings, test, Status::ok);
           }};
 }
 
-bool both_are_meshes(const ConcaveBody& a, const ConcaveBody& b) { return a.mesh && b.mesh; }
+// With a test that decides where rounding hides the verdict too.
+ConcaveEntry approximate(const char* name, const char* citation, RoughTest test) {
+  return {.info = {.name = name, .citation = citation},
+          .tasks = {ConcaveTask::intersect, ConcaveTask::contacts},
+          .scalars = {Precision::float64},
+          .supports = [](const ConcaveBody& a, const ConcaveBody& b) { return a.mesh && b.mesh; },
+          .takes_mid_phase = true,
+          .approximate = true,
+          .make =
+              [test](const ConcaveSettings& settings) {
+                return std::make_unique<PartPairs>(settings, test, Status::not_reported);
+              }};
+}
 
 }  // namespace
 }  // namespace touchstone
@@ -242,7 +260,7 @@ bool both_are_meshes(const ConcaveBody& a, const ConcaveBody& b) { return a.mesh
 namespace touchstone::entries {
 
 std::vector<ConcaveEntry> concave_part_pairs() {
-  std::vector<ConcaveEntry> entries = {
+  return {
       entry(
           "fused",
           "a descent of two trees of eight boxes a node, whose leaves are tested by fifteen signs "
@@ -252,21 +270,13 @@ std::vector<ConcaveEntry> concave_part_pairs() {
             "a mid-phase, then signs of volumes or a narrow phase for each pair of parts; integers "
             "where rounding hides a sign",
             test_by_signs),
-      entry("moller", "T. Moller, \"A fast triangle-triangle intersection test\", JGT 2(2), 1997",
-            test_by_moller),
-      entry("guigue-devillers",
-            "P. Guigue, O. Devillers, \"Fast and robust triangle-triangle overlap test using "
-            "orientation predicates\", JGT 8(1), 2003",
-            test_by_guigue_devillers)};
-  for (ConcaveEntry& made : entries) {
-    made.takes_mid_phase = made.info.name != "fused";
-    made.approximate = made.info.name == "moller" || made.info.name == "guigue-devillers";
-    made.measures = made.welds = !made.approximate;
-    if (!made.approximate) continue;
-    made.supports = both_are_meshes;
-    made.tasks = {ConcaveTask::intersect, ConcaveTask::contacts};
-  }
-  return entries;
+      approximate("moller",
+                  "T. Moller, \"A fast triangle-triangle intersection test\", JGT 2(2), 1997",
+                  test_by_moller),
+      approximate("guigue-devillers",
+                  "P. Guigue, O. Devillers, \"Fast and robust triangle-triangle overlap test using "
+                  "orientation predicates\", JGT 8(1), 2003",
+                  test_by_guigue_devillers)};
 }
 
 }  // namespace touchstone::entries

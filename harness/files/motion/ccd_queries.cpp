@@ -12,8 +12,9 @@
 #include <string>
 #include <string_view>
 
-#include "algorithms/oracle/numbers/dyadic.h"
+#include "algorithms/oracle/numbers/ratio.h"
 #include "harness/base/error.h"
+#include "harness/base/file_text.h"
 #include "harness/files/line_reader.h"
 
 namespace touchstone::files {
@@ -33,12 +34,12 @@ class CcdReader {
     while (const std::optional<std::string_view> line = lines_.next()) {
       ++line_;
       if (line->find_first_not_of(" \t\r\n") == std::string_view::npos) continue;
-      split(*line);
+      split(line_ == 1 ? base::without_byte_order_mark(*line) : *line);
       (row < 4 ? query.start[row] : query.end[row - 4]) = point();
       if (has_truth()) {
         const std::string_view text = fields_.back();
         if (text != "0" && text != "1") {
-          fail(fmt::format("found the truth '{}'; expected 0 or 1", text));
+          fail(fmt::format("found the truth '{}'; expected 0 or 1", base::shortened(text)));
         }
         if (row > 0 && truth != text[0] - '0') {
           fail("found another truth than in the query's first row; expected the same in all eight");
@@ -101,7 +102,7 @@ class CcdReader {
     double value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || stop != text.data() + text.size() || !std::isfinite(value)) {
-      fail(fmt::format("found '{}'; expected a number", text));
+      fail(fmt::format("found '{}'; expected a number", base::shortened(text)));
     }
     return value;
   }
@@ -111,7 +112,7 @@ class CcdReader {
     // Leading zeros would make it octal.
     const std::size_t begin = std::min(digits.find_first_not_of('0'), digits.size());
     if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
-      fail(fmt::format("found '{}'; expected an integer", text));
+      fail(fmt::format("found '{}'; expected an integer", base::shortened(text)));
     }
     if (begin == digits.size()) return 0;
     const Integer magnitude{std::string(digits.substr(begin))};
@@ -121,18 +122,14 @@ class CcdReader {
   double ratio(std::string_view above, std::string_view below) {
     const Integer numerator = integer(above), denominator = integer(below);
     if (denominator <= 0)
-      fail(fmt::format("found the denominator {}; expected one above 0", below));
-    const double value = numerator.convert_to<double>() / denominator.convert_to<double>();
-    if (!std::isfinite(value)) {
-      fail(fmt::format("found {}/{}; expected a number within the range of doubles", above, below));
+      fail(fmt::format("found the denominator {}; expected one above 0", base::shortened(below)));
+    const oracle::NearestDouble nearest = oracle::nearest_double(numerator, denominator);
+    if (!std::isfinite(nearest.value)) {
+      fail(fmt::format("found {}/{}; expected a number within the range of doubles",
+                       base::shortened(above), base::shortened(below)));
     }
-    const oracle::Dyadic parts = oracle::dyadic(value);
-    const bool is_exact = parts.mantissa.is_zero() ? numerator.is_zero()
-                          : parts.exponent < 0
-                              ? numerator << -parts.exponent == parts.mantissa * denominator
-                              : numerator == (parts.mantissa * denominator) << parts.exponent;
-    if (!is_exact) ++rounded_;
-    return value;
+    if (!nearest.is_exact) ++rounded_;
+    return nearest.value;
   }
 
   std::string file_;

@@ -19,9 +19,9 @@ struct CcdQueries {
 // Reads a file of eight rows a query: the four vertices at time 0 in the order of CcdQuery, then at
 // time 1. A row has three coordinates, each a number or a numerator and a denominator (two integers),
 // and may end with the truth: 1 for contact, 0 for none. All rows have the same number of columns:
-// 3, 4, 6 or 7. The format and data: Wang et al., "A Large-Scale Benchmark and an Inclusion-Based
-// Algorithm for Continuous Collision Detection", ACM TOG 40(5), 2021. Throws InputError with file and
-// line.
+// 3, 4, 6 or 7. A fraction becomes the double that is nearest to it. The format and data: Wang et al.,
+// "A Large-Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection", ACM
+// TOG 40(5), 2021. Throws InputError with file and line.
 CcdQueries read_ccd_queries(const std::filesystem::path& file);
 
 // A file of queries in a folder of the public data: SCENE/vertex-face/NAME.csv or

@@ -47,7 +47,7 @@ Mesh named_mesh(const std::string& name, const std::filesystem::path& home) {
     if (shape == "ellipsoid") return ellipsoid_with_poles({1, 0.8, 0.6}, side(4), 2 * side(4));
     return terrain(side(2), 0.3, 1);
   }
-  return read_mesh(home / name);
+  return read_surface(home / name);
 }
 
 }  // namespace touchstone::geometry

@@ -120,8 +120,8 @@ TEST(TrianglePairs, EveryPhaseIsRight) {
           reference::ask(name, ConcaveTask::contacts, bodies, pair.pose_a, pair.pose_b);
       ++asked;
       wrong += answered.meets() != truth;
+      EXPECT_EQ(answered.outcome.status, approximate ? Status::not_reported : Status::ok);
       if (approximate) return;
-      EXPECT_EQ(answered.outcome.status, Status::ok);
       EXPECT_EQ(answered.meets(), truth);
       EXPECT_EQ(answered.pairs.size(), truth ? 1u : 0u);
     });

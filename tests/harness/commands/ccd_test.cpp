@@ -114,6 +114,9 @@ TEST_F(CcdCommand, ReadsNumbersAndCountsWhatIsRounded) {
   const Ran ran = run(folder.write("in.csv", text), "--ccd exact");
   ASSERT_EQ(ran.status, 0) << ran.text;
   EXPECT_NEAR(std::stod(read_rows(out(), ccd_columns)[0][3]), 0.6, 1e-12);
+  const Ran marked = run(folder.write("in.csv", "\xef\xbb\xbf" + text), "--ccd exact");
+  ASSERT_EQ(marked.status, 0) << marked.text;
+  EXPECT_NEAR(std::stod(read_rows(out(), ccd_columns)[0][3]), 0.6, 1e-12);
   std::string thirds = falling("", "");
   thirds.replace(0, 3, "1,3");
   const Ran rounded = run(folder.write("in.csv", thirds), "--ccd exact");
@@ -125,6 +128,28 @@ TEST_F(CcdCommand, ReadsNumbersAndCountsWhatIsRounded) {
   const Ran exact = run(folder.write("in.csv", fine), "--ccd exact");
   EXPECT_EQ(exact.status, 0);
   EXPECT_THAT(exact.text, testing::Not(HasSubstr("rounded")));
+}
+
+// The vertex falls onto the line through two corners, all at the same x, which is a double times 3^42
+// over 3^42, or times 10^400.
+TEST_F(CcdCommand, AFractionIsRoundedOnce) {
+  const std::string tenth = "3602879701896397,36028797018963968", zeros(400, '0');
+  for (const std::string& other :
+       {std::string("394223454943948352025246800766869973,3942234549439483301414489744643981312"),
+        "3602879701896397" + zeros + ",36028797018963968" + zeros}) {
+    std::string text;
+    for (const char* z : {"1", "-1"}) {
+      text +=
+          fmt::format("{0},0,1,{1},1\n{2},-1,1,0,1\n{2},1,1,0,1\n2,1,0,1,0,1\n", other, z, tenth);
+    }
+    const Ran ran = run(folder.write("in.csv", text), "--ccd exact");
+    ASSERT_EQ(ran.status, 0) << ran.text;
+    EXPECT_THAT(ran.text, testing::Not(HasSubstr("rounded")));
+    EXPECT_EQ(read_rows(out(), ccd_columns)[0][2], "hit");
+  }
+  std::string far = falling("", "");
+  far.replace(0, 3, "1" + zeros + ",1");
+  refuse(far, "expected a number within the range of doubles");
 }
 
 TEST_F(CcdCommand, AMissedContactOfOursIsAnError) {
@@ -163,6 +188,9 @@ TEST_F(CcdCommand, RefusesBadInputWithItsPlace) {
   refuse(changed("0,1,0,1,1,1,1", "0,0,0,1,1,1,1"), "found the denominator 0");
   refuse(changed("0,1,0,1,1,1,1", "0,1,0,1,1,1,2"), "found the truth '2'; expected 0 or 1");
   refuse(changed("0,1,0,1,1,1,1", "0,1,0,1,1,1,0"), "in.csv:2: found another truth");
+  const std::string many(2000000, 'x');
+  refuse(changed("0,1,0,1,1,1,1", many + ",1,0,1,1,1,1"),
+         "found '" + many.substr(0, 80) + "...'; expected");
   refuse("0,0,nan\n", "in.csv:1: found 'nan'; expected a number");
   refuse(good, "'gjk'", "--ccd gjk");
   refuse(good, "--tolerance", "--tolerance -1");

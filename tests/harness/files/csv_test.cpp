@@ -141,6 +141,8 @@ TEST_F(Csv, Numbers) {
   EXPECT_EQ(read_numbers("x\n-9223372036854775808\n", true), "-9223372036854775808 ");
   EXPECT_EQ(read_numbers("x\nten\n"), "in.csv:2: column x: found 'ten'; expected a number");
   EXPECT_EQ(read_numbers("x\n1\n2m\n"), "in.csv:3: column x: found '2m'; expected a number");
+  EXPECT_EQ(read_numbers("x\n" + std::string(1000, '\xff') + "\n"),
+            "in.csv:2: column x: found '" + std::string(80, '?') + "...'; expected a number");
   EXPECT_EQ(read_numbers("x\n\"\"\n"), "in.csv:2: column x: found ''; expected a number");
   EXPECT_THAT(read_numbers("x\n1e999\n"), StartsWith("in.csv:2: column x: 1e999 is out of range"));
   EXPECT_EQ(read_numbers("x\n1.5\n", true), "in.csv:2: column x: found '1.5'; expected an integer");

@@ -156,9 +156,9 @@ void expect_tetrahedron(const geometry::Mesh& mesh) {
   EXPECT_EQ(mesh.triangles, sides);
 }
 
-std::string with_crlf(const std::string& text) {
+std::string with_ends(const std::string& text, const std::string& end) {
   std::string result;
-  for (char c : text) result += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  for (char c : text) result += c == '\n' ? end : std::string(1, c);
   return result;
 }
 
@@ -178,16 +178,45 @@ TEST_F(MeshTest, ReadsEachFormat) {
   }
 }
 
-TEST_F(MeshTest, ReadsCrlf) {
-  expect_tetrahedron(read("a.obj", with_crlf(obj)));
-  expect_tetrahedron(read("a.off", with_crlf(off)));
-  expect_tetrahedron(read("a.ply", with_crlf(ply)));
-  EXPECT_EQ(read("a.stl", with_crlf(stl)).triangles.size(), 2u);
+TEST_F(MeshTest, ReadsEveryEndOfLine) {
+  for (const std::string end : {"\r\n", "\r", "\n\n", "\r\r\n"}) {
+    expect_tetrahedron(read("a.obj", with_ends(obj, end)));
+    expect_tetrahedron(read("a.off", with_ends(off, end)));
+    expect_tetrahedron(read("a.ply", with_ends(ply, end)));
+    EXPECT_EQ(read("a.stl", with_ends(stl, end)).triangles.size(), 2u);
+  }
+  EXPECT_THAT(error("a.obj", "v 0 0 0\rv 1 0 0\r\nf 1 2 x\r"), testing::HasSubstr("a.obj:3:"));
+}
+
+TEST_F(MeshTest, LeavesOutAByteOrderMark) {
+  const std::string mark = "\xef\xbb\xbf";
+  expect_tetrahedron(
+      read("a.obj", mark + std::string(obj).substr(std::string(obj).find("v 0 0 0"))));
+  expect_tetrahedron(read("a.off", mark + off));
+  expect_tetrahedron(read("a.ply", mark + ply));
+  expect_tetrahedron(read("b.ply", mark + binary_ply(false)));
+  EXPECT_EQ(read("a.stl", mark + stl).triangles.size(), 2u);
+  EXPECT_EQ(read("b.stl", binary_stl(mark)).triangles.size(), 4u);  // part of the title
+}
+
+TEST_F(MeshTest, ASurfaceHasFaces) {
+  const auto read_surface = [&](const std::string& content) {
+    return geometry::read_surface(folder_.write("a.obj", content));
+  };
+  expect_tetrahedron(read_surface(obj));
+  const std::string points = "v 0 0 0\nv 1 0 0\n";
+  EXPECT_EQ(read("a.obj", points).vertices.size(), 2u);
+  EXPECT_THAT(input_fault([&] { read_surface(points); }), testing::HasSubstr("has no faces"));
 }
 
 TEST_F(MeshTest, CutsPolygonsIntoFans) {
   EXPECT_EQ(read("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\n3 4\n").triangles,
             (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  for (const char* face : {"f 1 2\\\n3 4\n", "f \\\n\n1 2 3 \\ \n4\n", "f 1 2 3 \\\n\\\n4"}) {
+    EXPECT_EQ(read("a.obj", std::string("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n") + face).triangles,
+              (Triangles{{0, 1, 2}, {0, 2, 3}}))
+        << face;
+  }
   EXPECT_EQ(read("a.off", "OFF 4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 3 2 1 0\n").triangles,
             (Triangles{{3, 2, 1}, {3, 1, 0}}));
 }
@@ -223,6 +252,10 @@ TEST_F(MeshTest, ErrorsNameFileAndLine) {
   expect("a.obj", "v 0 0 0\nf 1 1 -2\n", "2:", "out of range");
   expect("a.obj", "v 0 0 0\nf 1 1 99999999999999999999\n", "2:", "integer");
   expect("a.obj", "v 0 0 0\nf 1 1\n", "2:", "three corners");
+  expect("a.obj", "v 0 0 0\nf 1 1\\ 1\n", "2:", "behind the backslash");
+  expect("a.obj", "v 0 0 0\nf 1 1 1\\\n", "2:", "ends early");
+  expect("a.obj", "v 0 0 " + std::string(2000000, '1') + "x\n",
+         "1:", std::string(80, '1') + "...'");
   expect("a.obj", "# nothing\n", "", "no vertices");
   expect("a.off", "", "", "ends early");
   expect("a.off", "PFF\n", "1:", "expected OFF");
