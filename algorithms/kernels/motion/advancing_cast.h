@@ -6,6 +6,7 @@
 
 #include "algorithms/cast.h"
 #include "algorithms/kernels/motion/advancement.h"
+#include "algorithms/kernels/motion/halfspace_advancement.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
 #include "algorithms/kernels/motion/moving_scene.h"
 
@@ -28,6 +29,11 @@ class AdvancingCast final : public Cast {
       const MovingBody a = scene_.body(batch, pairs.first[i]),
                        b = scene_.body(batch, pairs.second[i]);
       outcomes[i] = {};
+      const bool turns = a.motion->turns() || b.motion->turns();
+      if (batch.kind_b == ShapeKind::halfspace && turns) {
+        advance_onto_halfspace(a, b, goal_, outcomes[i]);
+        continue;
+      }
       if (batch.kind_b == ShapeKind::halfspace) {
         cast_halfspace(*a.shape, *a.pose, *a.motion, *b.shape, *b.pose, *b.motion,
                        {goal_.tolerance, StartContact::counts}, outcomes[i]);
@@ -55,9 +61,9 @@ class AdvancingCast final : public Cast {
   MovingScene scene_;
 };
 
-// Half-spaces are cast by a closed form, for bodies that do not turn.
-inline bool advancing_cast_supports(ShapeKind, ShapeKind kind_b, bool turns) {
-  return !turns || kind_b != ShapeKind::halfspace;
+// Half-spaces may not turn: two that do are refused here, and a body with one that does by its status.
+inline bool advancing_cast_supports(ShapeKind kind_a, ShapeKind, bool turns) {
+  return !turns || kind_a != ShapeKind::halfspace;
 }
 
 }  // namespace touchstone

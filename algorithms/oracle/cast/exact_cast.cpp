@@ -59,6 +59,10 @@ class ExactCast final : public Cast {
       outcomes[i] = {};
       const bool exact = is_polytope(batch.kind_a) && is_polytope(batch.kind_b) &&
                          !batch.motions[a].turns() && !batch.motions[b].turns();
+      if (batch.kind_b == ShapeKind::halfspace && batch.motions[b].turns()) {
+        outcomes[i].status = Status::unsupported;
+        continue;
+      }
       if (!exact) {
         const auto body = [&](std::uint32_t k) {
           const std::uint32_t shape = pairs.shape_of[k];
@@ -146,8 +150,9 @@ void ExactCast::cast(const Body& a, const Motion& motion_a, const Body& b, const
   outcome.point = point_of(search, a, motion_a, b, motion_b, outcome.toi);
 }
 
-bool supports_exact(ShapeKind, ShapeKind kind_b, bool turns) {
-  return !turns || kind_b != ShapeKind::halfspace;
+// Of two half-spaces none may turn, and of a body and a half-space only the body.
+bool supports_exact(ShapeKind kind_a, ShapeKind, bool turns) {
+  return !turns || kind_a != ShapeKind::halfspace;
 }
 
 }  // namespace
