@@ -55,7 +55,7 @@ Vec3d grid_path(const Vec3d& normal, int sign, Draws& random) {
 MovingPairCase touching_on_grid(AfterTouch after, Draws& random) {
   MovingPairCase c;
   const bool ball = random.below(4) == 0;
-  c.a = grid_shape(false, random);
+  c.a = grid_shape(ball && random.below(2) == 0, random);
   c.b = grid_shape(ball, random);
   c.normal = grid_normal(ball || random.below(2) == 0, random);
   c.pose_a.translation = drawn_on_grid(8, 0.25, random);

@@ -9,7 +9,8 @@
 
 namespace touchstone::check {
 
-// The same case in another form, which has the same exact answer. A form is asked where it is exact.
+// The same case in another form, which has the same exact answer. A form is asked where it is exact; turning
+// casts are also reversed and split, where rounding may decide otherwise, and are then graded by that answer.
 enum class CaseForm : std::uint8_t {
   as_drawn,
   swapped,   // the bodies, or features, in the other order

@@ -38,14 +38,16 @@ TEST(StartContact, AWrongVerdictFromATouchIsSeen) {
       "casts-from-touch", cast_of(yes.cast, StartContact::approach), CaseForm::as_drawn, cases);
   EXPECT_EQ(all_hits.near, 0);
   EXPECT_GT(all_hits.false_hits, cases / 3);
-  EXPECT_GT(all_hits.right, cases / 10);
+  EXPECT_GT(all_hits.right, cases / 20);
   PlantedKinds<Habit::no> no;
   no.cast.approach = true;
   const FamilyCount all_misses = count_of(
       "casts-from-touch", cast_of(no.cast, StartContact::approach), CaseForm::as_drawn, cases);
-  EXPECT_EQ(all_misses.missed, all_hits.right);
+  // Some touch later alone, where a hit at the start is wrong too.
+  EXPECT_EQ(all_misses.missed, all_hits.right + all_hits.wrong);
   EXPECT_EQ(all_misses.right, all_hits.false_hits);
-  EXPECT_EQ(all_misses.unresolved, 0);
+  // Those that touch at one instant later have no exact answer.
+  EXPECT_LE(all_misses.unresolved, cases / 20);
 }
 
 TEST(StartContact, OursTellWhatBodiesDoAfterATouch) {
@@ -55,7 +57,7 @@ TEST(StartContact, OursTellWhatBodiesDoAfterATouch) {
           count_of("casts-from-touch", cast_of(*find_cast(name), StartContact::approach), form,
                    drawn(160, 40));
       EXPECT_GT(count.cases, drawn(16, 4)) << name;
-      EXPECT_EQ(count.right, count.cases) << name << " " << to_string(form);
+      EXPECT_EQ(count.right + count.unresolved, count.cases) << name << " " << to_string(form);
     }
   }
 }
