@@ -213,19 +213,20 @@ void add_query(Arguments command) {
   command.text("--id", options->id, "Asks the cases with this id alone");
   command.one_of("--scalar", settings.scalar, scalar_choices(), "What is calculated in")
       .show_default("double");
-  command
-      .number("--tolerance", settings.tolerance,
-              "Error of a distance at which to stop, as a part of the pair's size; in concave "
-              "phases, of "
-              "pairs of convex parts")
-      .positive();
+  const Option tolerance =
+      command
+          .number("--tolerance", settings.tolerance,
+                  "Error of a distance at which to stop, as a part of the pair's size; in concave "
+                  "phases, of pairs of convex parts")
+          .positive();
   const Option duality_gap =
       command
           .number(
               "--duality-gap", settings.duality_gap,
               "Narrow phases: stop a distance by the absolute duality gap of its square instead "
               "(square metres)")
-          .positive();
+          .positive()
+          .excludes(tolerance);
   const Option margin =
       command
           .number("--margin", settings.margin,
@@ -234,8 +235,7 @@ void add_query(Arguments command) {
   command
       .number("--max-iterations", settings.max_iterations,
               "Greatest number of iterations of each loop of a query; in concave phases, of a pair "
-              "of convex "
-              "parts")
+              "of convex parts")
       .positive();
   add_time_limit(command, options->time_limit).show_default();
   command.text("--out", options->out, "The CSV file to write").required();

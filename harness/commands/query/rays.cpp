@@ -95,10 +95,10 @@ void add_rays(Arguments command) {
                                                     {"any", RayTask::any}};
   const auto options = std::make_shared<RaysOptions>();
   command
-      .text("FILE", options->target,
-            "A mesh (OBJ, OFF, STL or PLY; a face of more corners becomes a fan of triangles "
-            "around its first, "
-            "which is right for convex faces), or a scene (TOML, or rigid-ipc's JSON)")
+      .text(
+          "FILE", options->target,
+          "A mesh (OBJ, OFF, STL or PLY; a face of more corners becomes a fan of triangles around "
+          "its first, which is right for convex faces), or a scene (TOML, or rigid-ipc's JSON)")
       .required();
   command.text("--rays", options->rays, "Rays: CSV with origin, direction and t_max").required();
   command.text("--cast", options->cast, "Ray casts: names joined by commas, or all").required();

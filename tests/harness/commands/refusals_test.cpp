@@ -55,6 +55,7 @@ TEST_F(Refusals, QueryOptionsThatNothingHeeds) {
   const std::string convex = "query " + path("boxes.jsonl") + " --narrow gjk --task distance" + out;
   refuse(convex + " --mid wide-bvh", "--mid was given; expected it with meshes");
   refuse(convex + " --parts certified", "--parts was given; expected it with meshes");
+  refuse(convex + " --tolerance 1e-3 --duality-gap 1e-3", "excludes");
   for (const std::string& heeded :
        {concave + " --mid naive --parts certified --tolerance 1e-3 --max-iterations 90",
         convex + " --margin 1 --tolerance 1e-3 --max-iterations 90"}) {
