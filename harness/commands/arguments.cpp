@@ -166,6 +166,8 @@ Option Option::check(std::function<std::string(const std::string&)> fault) {
 
 bool Option::given() const { return option_->count() > 0; }
 
+std::string Option::name() const { return option_->get_name(); }
+
 // --- commands ---
 
 Option Arguments::text(const std::string& name, std::string& value, const std::string& help) {

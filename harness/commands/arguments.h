@@ -47,6 +47,7 @@ class Option {
 
   // Returns true if the command line has it.
   bool given() const;
+  std::string name() const;  // such as "--out"
 
  private:
   CLI::Option* option_;

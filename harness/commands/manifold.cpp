@@ -195,8 +195,8 @@ int manifold(const ManifoldOptions& options) {
     throw base::InputError("--page was given without --grade; expected both");
   }
   const std::vector<Asked> asked = read_or_make_cases(options);
-  if (!options.out.empty()) files::check_output(options.out);
-  if (!options.page.empty()) files::check_output(options.page);
+  files::check_outputs({{"CASES", options.cases}},
+                       {{"--out", options.out}, {"--page", options.page}});
   std::vector<Contestant> contestants;
   for (const ManifoldEntry* entry : entries) {
     for (const Precision scalar : {Precision::float64, Precision::float32}) {

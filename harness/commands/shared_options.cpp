@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "harness/base/error.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone::commands {
@@ -76,6 +77,13 @@ Option add_shard(Arguments& command, std::string& plan, std::int64_t& shard) {
   const Option number =
       command.number("--shard", shard, "Number of the shard, from 0").not_negative().needs(folder);
   return folder.needs(number);
+}
+
+void expect_not_given(std::initializer_list<Option> options, const std::string& expected) {
+  for (const Option& option : options) {
+    if (!option.given()) continue;
+    throw base::InputError(fmt::format("{} was given; expected it {}", option.name(), expected));
+  }
 }
 
 std::filesystem::path results_folder(const std::string& out, const std::string& name) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,6 +56,10 @@ void add_case_options(Arguments& command, Request& request, std::string& narrow,
 
 // Returns the folder `out`; if that is empty, results/local/NAME in the project.
 std::filesystem::path results_folder(const std::string& out, const std::string& name);
+
+// Throws InputError if one of these options was given. `expected` says where it may be, such as "with
+// --task distance alone".
+void expect_not_given(std::initializer_list<Option> options, const std::string& expected);
 
 // Adds --plan and --shard.
 Option add_shard(Arguments& command, std::string& plan, std::int64_t& shard);

@@ -28,10 +28,38 @@ bool is_device(const std::filesystem::path& file) {
          !std::filesystem::is_directory(status);
 }
 
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  if (a.empty() || b.empty() || is_device(a)) return false;
+  if (a.lexically_normal().string().starts_with("/dev/")) return false;
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a, b, ignored)) return true;
+  return std::filesystem::weakly_canonical(a, ignored) ==
+         std::filesystem::weakly_canonical(b, ignored);
+}
+
 }  // namespace
 
 void check_output(const std::filesystem::path& file) {
   if (!is_device(file)) OutputFile{file};
+}
+
+void check_outputs(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const NamedFile& output = outputs[i];
+    for (const NamedFile& input : inputs) {
+      if (!is_same_file(output.file, input.file)) continue;
+      throw base::InputError(fmt::format("{} would overwrite {} ({}); expected another file",
+                                         output.name, input.name, input.file.string()));
+    }
+    for (const NamedFile& other : outputs.first(i)) {
+      if (!is_same_file(output.file, other.file)) continue;
+      throw base::InputError(
+          fmt::format("{} and {} name the same file; expected two", other.name, output.name));
+    }
+  }
+  for (const NamedFile& output : outputs) {
+    if (!output.file.empty()) check_output(output.file);
+  }
 }
 
 OutputFile::OutputFile(std::filesystem::path file, Keep keep) : file_(std::move(file)) {

@@ -6,12 +6,29 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
+#include <span>
 #include <string_view>
 
 namespace touchstone::files {
 
 // Throws if OutputFile's constructor would, and leaves nothing behind. Call it before long work.
 void check_output(const std::filesystem::path& file);
+
+// A file, and the option or argument that names it.
+struct NamedFile {
+  std::string_view name;
+  std::filesystem::path file;  // none if empty
+};
+
+// The same for several outputs. Throws too if two of them are one file, or if one is read as an input.
+// What is in /dev and other devices may be named more than once.
+void check_outputs(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
+inline void check_outputs(std::initializer_list<NamedFile> inputs,
+                          std::initializer_list<NamedFile> outputs) {
+  check_outputs(std::span(inputs.begin(), inputs.size()),
+                std::span(outputs.begin(), outputs.size()));
+}
 
 // Writes a file under a temporary name beside it and renames it in `close`, so that readers see a
 // whole file or none. Without `close` (after an exception) nothing is left. Every failure to write,

@@ -35,7 +35,7 @@ Mat3d read_quaternion(const JsonNode& node) {
   return q.toRotationMatrix();
 }
 
-Shape read_shape(const JsonNode& node) {
+Shape read_shape(const JsonNode& node, std::string_view others) {
   node.as_object("an object, such as {\"type\":\"sphere\",\"radius\":1}");
   const JsonNode type = node.at("type", "a shape's name");
   const std::string& name = type.text("a shape's name");
@@ -47,7 +47,7 @@ Shape read_shape(const JsonNode& node) {
     for (const ShapeKind k : all_shape_kinds) {
       known += (known.empty() ? "" : ", ") + std::string(to_string(k));
     }
-    type.fail(fmt::format("found {}; expected one of {}", type.found(), known));
+    type.fail(fmt::format("found {}; expected one of {}{}", type.found(), known, others));
   }
   shape.kind = *kind;
   switch (shape.kind) {
@@ -110,10 +110,10 @@ int read_axis(const JsonNode& shape) {
   axis.fail(fmt::format("found {}; expected \"x\", \"y\" or \"z\"", axis.found()));
 }
 
-void read_body(const JsonNode& body, Shape& shape, Pose& pose) {
+void read_body(const JsonNode& body, Shape& shape, Pose& pose, std::string_view others) {
   body.as_object("an object with a shape and its pose");
   const JsonNode node = body.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
-  shape = read_shape(node);
+  shape = read_shape(node, others);
   pose = read_pose(body);
   if (shape.kind == ShapeKind::capsule || shape.kind == ShapeKind::cylinder ||
       shape.kind == ShapeKind::cone) {

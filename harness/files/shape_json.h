@@ -8,8 +8,9 @@
 namespace touchstone::files {
 
 // Throws InputError as described at read_cases. An axis other than z becomes z by a permutation of
-// the rotation's columns.
-void read_body(const JsonNode& body, Shape& shape, Pose& pose);
+// the rotation's columns. `others` are names of shapes that the caller takes, for the message about one that
+// nobody knows.
+void read_body(const JsonNode& body, Shape& shape, Pose& pose, std::string_view others = "");
 
 // The translation and the rotation of a body; those that are missing are zero and the identity.
 Pose read_pose(const JsonNode& body);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "harness/base/error.h"
+#include "harness/base/file_text.h"
 #include "harness/files/csv.h"
 #include "harness/scene/aabbs.h"
 
@@ -23,8 +24,8 @@ constexpr std::size_t frame_column = 0, id_column = 1, min_column = 2, max_colum
 double coordinate(const files::CsvReader::Row& row, std::size_t column) {
   const double value = row.number(column);
   if (!(std::abs(value) <= double{std::numeric_limits<float>::max()})) {
-    row.fail(
-        fmt::format("found {}; expected a finite number in the range of float", row.text(column)));
+    row.fail(fmt::format("found {}; expected a finite number in the range of float",
+                         base::shortened(row.text(column))));
   }
   return value;
 }
@@ -36,7 +37,8 @@ bool is_absent(const files::CsvReader::Row& row) {
   return true;
 }
 
-Aabb read_box(const files::CsvReader::Row& row) {
+// Counts the coordinates that no float holds.
+Aabb read_box(const files::CsvReader::Row& row, std::size_t& rounded) {
   if (is_absent(row)) return Aabb::empty();
   Aabb box;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -44,10 +46,12 @@ Aabb read_box(const files::CsvReader::Row& row) {
     const double high = coordinate(row, max_column + i);
     if (low > high) {
       row.fail(fmt::format("{} from {} to {}; expected min <= max", "xyz"[i],
-                           row.text(min_column + i), row.text(max_column + i)));
+                           base::shortened(row.text(min_column + i)),
+                           base::shortened(row.text(max_column + i))));
     }
     box.min[i] = round_down(low);
     box.max[i] = round_up(high);
+    rounded += (box.min[i] != low ? 1U : 0U) + (box.max[i] != high ? 1U : 0U);
   }
   return box;
 }
@@ -75,7 +79,7 @@ std::vector<BoxFrame> read_csv(const std::filesystem::path& file) {
     if (boxes.size() == std::numeric_limits<std::uint32_t>::max()) {
       row.fail("too many boxes in a frame");
     }
-    boxes.push_back(read_box(row));
+    boxes.push_back(read_box(row, frames.back().rounded));
   });
   if (frames.empty()) {
     throw base::InputError(file.string(), 1, "no box behind the header; expected at least one");

@@ -18,6 +18,7 @@ struct BoxFrame {
   // The boxes of these ids, and empty ones for ids that only earlier frames had: the array of
   // FrameChange.
   std::vector<Aabb> boxes;
+  std::size_t rounded = 0;  // coordinates in the file that no float holds
   // Changes since the previous frame; empty in the first.
   std::vector<std::uint32_t> moved, inserted, removed;
 

@@ -158,6 +158,7 @@ class Reader {
       found = at != set.contestants.end() ? &*at : &set.contestants.emplace_back();
     }
     found->label = label;
+    found->batch = row.batch;
     if (row.depth_bound.value_or(false)) found->depth_is_bound = true;
     if (!found->origin) {
       found->origin = row.origin;

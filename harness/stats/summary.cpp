@@ -24,7 +24,7 @@ constexpr std::string_view broad = "broad phases";
 
 // The best of ours and the best library of a set; a label is empty if there is none.
 struct Duel {
-  std::string scene, kind;  // kind: "broad phases", or a task
+  std::string scene, kind;  // kind: "broad phases", or a task and its batch
   std::string ours, library;
   MedianInterval ratio;  // ratio of the library's time to that of ours
 };
@@ -36,8 +36,9 @@ std::vector<Duel> duels_of(const Tables& tables) {
         {row.key.scene, std::string(broad), row.ours.label, row.peer.label, row.peer.ratio});
   }
   for (const NarrowBestRow& row : tables.narrow_best) {
-    duels.push_back(
-        {row.key.scene, row.key.task, row.ours.label, row.right_peer.label, row.right_peer.ratio});
+    const std::string batch = row.batch > 0 ? fmt::format(" by {}", row.batch) : "";
+    duels.push_back({row.key.scene, row.key.task + batch, row.ours.label, row.right_peer.label,
+                     row.right_peer.ratio});
   }
   return duels;
 }

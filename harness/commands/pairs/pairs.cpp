@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,6 +16,7 @@
 #include "harness/commands/pairs/contender.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
+#include "harness/files/output_file.h"
 #include "harness/scene/box_frames.h"
 
 namespace touchstone::commands {
@@ -50,25 +49,6 @@ void print_summary(std::span<const std::unique_ptr<Contender>> contenders, std::
     }
     fmt::print("{:<28} {:>7} {:>12} {:>12.6f}  {}\n", contender->name(), done, pairs, seconds,
                differing);
-  }
-}
-
-struct Output {
-  const char* option;
-  const std::string& file;  // empty if it is not wanted
-};
-
-void check_outputs(std::initializer_list<Output> outputs) {
-  for (const Output& output : outputs) {
-    if (output.file.empty()) continue;
-    files::check_output(output.file);
-    for (const Output* other = outputs.begin(); other != &output; ++other) {
-      if (!other->file.empty() && std::filesystem::weakly_canonical(other->file) ==
-                                      std::filesystem::weakly_canonical(output.file)) {
-        throw base::InputError(fmt::format("{} and {} name the same file; expected two",
-                                           other->option, output.option));
-      }
-    }
   }
 }
 
@@ -128,10 +108,16 @@ void pairs(const PairsOptions& options) {
   const std::vector<scene::BoxFrame> frames = scene::read_box_frames(options.file);
   const std::vector<char> is_resting =
       options.resting.empty() ? std::vector<char>{} : read_resting(options.resting, frames);
-  check_outputs({{"--out", options.out},
-                 {"--pairs", options.pairs},
-                 {"--changes", options.changes},
-                 {"--moved", options.moved}});
+  files::check_outputs({{"FILE", options.file}, {"--resting", options.resting}},
+                       {{"--out", options.out},
+                        {"--pairs", options.pairs},
+                        {"--changes", options.changes},
+                        {"--moved", options.moved}});
+  std::size_t rounded = 0;
+  for (const scene::BoxFrame& frame : frames) rounded += frame.rounded;
+  if (rounded > 0) {
+    fmt::print(stderr, "{} coordinates are not floats, and were rounded outwards\n", rounded);
+  }
   std::vector<std::unique_ptr<Contender>> contenders;
   contenders.reserve(entries.size());
   for (const BroadPhaseEntry* entry : entries) {
@@ -162,7 +148,7 @@ void add_pairs(Arguments command) {
   command
       .text("FILE", options->file,
             "Boxes: CSV (frame,id,min_x,min_y,min_z,max_x,max_y,max_z), or a Broadmark "
-            "recording (.aabbs)")
+            "recording (.aabbs); a coordinate that is no float is rounded outwards to one")
       .required();
   command.text("--broad", options->broad, "Broad phases: names joined by commas, or all")
       .required();

@@ -136,8 +136,8 @@ void cast(const CastOptions& options) {
   require(options.out, "--out");
   const auto entries = campaign::select(casts(), campaign::split_names(options.casts), "cast");
   const std::vector<files::CastCase> cases = files::read_cast_cases(options.cases);
-  files::check_output(options.out);
-  if (!options.saved.empty()) files::check_output(options.saved);
+  files::check_outputs({{"CASES", options.cases}},
+                       {{"--out", options.out}, {"--save-certificates", options.saved}});
   std::vector<CastAnswers> all;
   all.reserve(entries.size());
   for (const CastEntry* entry : entries) all.push_back(ask(*entry, cases, options));

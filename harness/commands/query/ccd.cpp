@@ -22,6 +22,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/motion/ccd_queries.h"
+#include "harness/files/output_file.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::commands {
@@ -237,7 +238,9 @@ int run_ccd(const CcdOptions& options) {
   auto entries = campaign::select(ccds(), campaign::split_names(options.algorithms),
                                   "algorithm of continuous collision");
   const files::CcdQueries first = files::read_ccd_queries(files.front().file);
-  files::check_output(options.out);
+  std::vector<files::NamedFile> inputs;
+  for (const files::CcdFile& file : files) inputs.push_back({"QUERIES", file.file});
+  files::check_outputs(inputs, std::vector<files::NamedFile>{{"--out", options.out}});
   CcdJob job(options, std::move(entries), is_folder);
   job.ask(files.front(), first);
   for (std::size_t i = 1; i < files.size(); ++i)

@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/base/file_text.h"
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
+#include "harness/files/output_file.h"
 #include "harness/geometry/mesh.h"
 #include "harness/process/isolate.h"
 
@@ -41,8 +43,8 @@ std::vector<Vec3d> read_points(const std::string& file) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double value = row.number(k);
       if (!std::isfinite(value)) {
-        row.fail(
-            fmt::format("column {}: found {}; expected a finite number", row.name(k), row.text(k)));
+        row.fail(fmt::format("column {}: found {}; expected a finite number", row.name(k),
+                             base::shortened(row.text(k))));
       }
       point[static_cast<Eigen::Index>(k)] = value;
     }
@@ -101,10 +103,11 @@ void print_points_summary(const std::vector<PointAnswers>& all) {
 void ask_points(const PointsOptions& options) {
   const auto entries =
       campaign::select(point_queries(), campaign::split_names(options.query), "point query");
-  geometry::Mesh read = geometry::read_mesh(options.mesh);
+  geometry::Mesh read = geometry::read_surface(options.mesh);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Vec3d> points = read_points(options.points);
-  files::check_output(options.out);
+  files::check_outputs({{"MESH", options.mesh}, {"--points", options.points}},
+                       {{"--out", options.out}});
   std::vector<PointAnswers> all;
   all.reserve(entries.size());
   for (const PointQueryEntry* entry : entries)

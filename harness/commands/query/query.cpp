@@ -9,6 +9,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
+#include "harness/base/file_text.h"
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
@@ -18,6 +19,7 @@
 #include "harness/files/cases.h"
 #include "harness/files/concave/concave_cases.h"
 #include "harness/files/csv.h"
+#include "harness/files/output_file.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
 
@@ -48,6 +50,11 @@ struct QueryOptions {
   Task task = Task::intersect;  // of narrow phases
   NarrowPhaseSettings settings;
   double time_limit = 5;  // seconds a query
+};
+
+// The options that not every case and task heeds.
+struct HeededBySome {
+  Option margin, duality_gap, mid, parts;
 };
 
 // The outcomes of one algorithm for all cases.
@@ -102,19 +109,35 @@ bool asks_concave_phases(const QueryOptions& options,
   });
 }
 
-void ask_concave_phases(const QueryOptions& options, const std::vector<files::ConcaveCase>& cases) {
-  if (!options.asked.of_concave) {
+[[noreturn]] void refuse_task(const QueryOptions& options,
+                              const std::vector<files::ConcaveCase>& cases) {
+  const std::string message = fmt::format(
+      "--task {}, which concave phases do not answer; expected intersect, distance or contacts",
+      to_string(*options.asked.of_convex));
+  const auto concave = std::ranges::find(cases, false, &files::ConcaveCase::is_convex);
+  if (concave == cases.end()) {
     throw base::InputError(
-        fmt::format("{}: has a mesh or a compound, for which --task {} is not there; "
-                    "expected intersect, distance or contacts",
-                    options.cases, to_string(*options.asked.of_convex)));
+        fmt::format("--narrow {} names concave phases, with {}", options.narrow, message));
   }
+  throw base::InputError(options.cases, concave->line,
+                         fmt::format("case '{}' has a mesh or a compound, with {}",
+                                     base::shortened(concave->id), message));
+}
+
+void ask_concave_phases(const QueryOptions& options, const HeededBySome& heeded,
+                        const std::vector<files::ConcaveCase>& cases) {
+  if (!options.asked.of_concave) refuse_task(options, cases);
+  expect_not_given({heeded.margin, heeded.duality_gap},
+                   "with convex shapes and narrow phases alone");
   query_concave({.names = options.narrow,
                  .task = *options.asked.of_concave,
                  .scalar = options.settings.scalar,
                  .mid = options.mid,
                  .parts = options.parts,
+                 .settings = {.tolerance = options.settings.tolerance,
+                              .max_iterations = options.settings.max_iterations},
                  .time_limit = options.time_limit,
+                 .cases = options.cases,
                  .out = options.out,
                  .pairs = options.pairs,
                  .contacts = options.contacts,
@@ -132,7 +155,7 @@ void ask_narrow_phases(const QueryOptions& options, const std::vector<files::Cas
                     "expected only {}",
                     entry->info.name, campaign::names_stopping_by_duality_gap()));
   }
-  files::check_output(options.out);
+  files::check_outputs({{"CASES", options.cases}}, {{"--out", options.out}});
   std::vector<Answers> all;
   all.reserve(entries.size());
   for (const NarrowPhaseEntry* entry : entries) all.push_back(ask(*entry, cases, options));
@@ -152,7 +175,7 @@ void ask_narrow_phases(const QueryOptions& options, const std::vector<files::Cas
   summary.print();
 }
 
-void query(QueryOptions& options) {
+void query(QueryOptions& options, const HeededBySome& heeded) {
   const std::vector<files::ConcaveCase> cases = asked_cases(options);
   if (!options.pairs.empty() && options.asked.of_convex) {
     throw base::InputError("--pairs was given; expected it with --task contacts alone");
@@ -163,8 +186,12 @@ void query(QueryOptions& options) {
   if (options.welded && options.contacts.empty()) {
     throw base::InputError("--welded was given; expected it with --contacts alone");
   }
-  if (asks_concave_phases(options, cases)) return ask_concave_phases(options, cases);
+  if (asks_concave_phases(options, cases)) return ask_concave_phases(options, heeded, cases);
+  expect_not_given({heeded.mid, heeded.parts}, "with meshes, compounds or concave phases alone");
   options.task = *options.asked.of_convex;
+  if (options.task != Task::distance && options.task != Task::signed_distance) {
+    expect_not_given({heeded.margin, heeded.duality_gap}, "with --task distance or signed alone");
+  }
   std::vector<files::Case> convex;
   convex.reserve(cases.size());
   for (const files::ConcaveCase& c : cases) convex.push_back(convex_case(c));
@@ -186,21 +213,29 @@ void add_query(Arguments command) {
   command.text("--id", options->id, "Asks the cases with this id alone");
   command.one_of("--scalar", settings.scalar, scalar_choices(), "What is calculated in")
       .show_default("double");
-  command
-      .number("--tolerance", settings.tolerance,
-              "Error of a distance at which to stop, as a part of the pair's size")
-      .positive();
-  command
-      .number("--duality-gap", settings.duality_gap,
-              "Stop a distance by the absolute duality gap of its square instead (square metres)")
-      .positive();
-  command
-      .number("--margin", settings.margin,
-              "Bodies further apart than this get no distance (metres)")
-      .not_negative();
+  const Option tolerance =
+      command
+          .number("--tolerance", settings.tolerance,
+                  "Error of a distance at which to stop, as a part of the pair's size; in concave "
+                  "phases, of pairs of convex parts")
+          .positive();
+  const Option duality_gap =
+      command
+          .number(
+              "--duality-gap", settings.duality_gap,
+              "Narrow phases: stop a distance by the absolute duality gap of its square instead "
+              "(square metres)")
+          .positive()
+          .excludes(tolerance);
+  const Option margin =
+      command
+          .number("--margin", settings.margin,
+                  "Narrow phases: bodies further apart than this get no distance (metres)")
+          .not_negative();
   command
       .number("--max-iterations", settings.max_iterations,
-              "Greatest number of iterations of each loop of a query")
+              "Greatest number of iterations of each loop of a query; in concave phases, of a pair "
+              "of convex parts")
       .positive();
   add_time_limit(command, options->time_limit).show_default();
   command.text("--out", options->out, "The CSV file to write").required();
@@ -212,13 +247,15 @@ void add_query(Arguments command) {
       "--welded", options->welded,
       "With --contacts: where neighbours of a triangle are in the way of a normal, the contact "
       "has the face's");
-  command.text("--mid", options->mid, "Concave phases: the mid-phase that finds pairs of parts")
-      .show_default();
-  command
-      .text("--parts", options->parts, "Concave phases: the narrow phase for pairs of convex parts")
-      .show_default();
-  command.job([options] {
-    query(*options);
+  const Option mid =
+      command.text("--mid", options->mid, "Concave phases: the mid-phase that finds pairs of parts")
+          .show_default();
+  const Option parts = command
+                           .text("--parts", options->parts,
+                                 "Concave phases: the narrow phase for pairs of convex parts")
+                           .show_default();
+  command.job([options, heeded = HeededBySome{margin, duality_gap, mid, parts}] {
+    query(*options, heeded);
     return exit_done;
   });
 }

@@ -14,6 +14,7 @@
 #include "harness/commands/query/query_rows.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
+#include "harness/files/output_file.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::commands {
@@ -47,7 +48,7 @@ class ConcaveQueryRun {
     }
     settings_ = {.scalar = query.scalar,
                  .mid_phase = mid->make,
-                 .narrow_phase = [parts] { return parts->make(NarrowPhaseSettings{}); },
+                 .narrow_phase = [parts, &query] { return parts->make(query.settings); },
                  .welds = query.welds};
   }
 
@@ -190,9 +191,9 @@ void query_concave(const ConcaveQuery& query, const std::vector<files::ConcaveCa
   const auto entries =
       campaign::select(concave_phases(), campaign::split_names(query.names), "concave phase");
   const ConcaveQueryRun run(query, cases);
-  files::check_output(query.out);
-  if (!query.pairs.empty()) files::check_output(query.pairs);
-  if (!query.contacts.empty()) files::check_output(query.contacts);
+  files::check_outputs(
+      {{"CASES", query.cases}},
+      {{"--out", query.out}, {"--pairs", query.pairs}, {"--contacts", query.contacts}});
   std::vector<ConcaveAnswers> all;
   all.reserve(entries.size());
   for (const ConcaveEntry* entry : entries) all.push_back(run.ask(*entry));

@@ -15,6 +15,7 @@
 #include "harness/commands/query/rays_of_scenes.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
+#include "harness/files/output_file.h"
 #include "harness/geometry/mesh.h"
 #include "harness/process/isolate.h"
 
@@ -64,10 +65,11 @@ void write_row(files::CsvWriter& csv, std::size_t ray, const Cast& cast, Precisi
 void cast_rays(const RaysOptions& options) {
   const auto entries =
       campaign::select(ray_casts(), campaign::split_names(options.cast), "ray cast");
-  geometry::Mesh read = geometry::read_mesh(options.target);
+  geometry::Mesh read = geometry::read_surface(options.target);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Ray> rays = read_rays(options.rays);
-  files::check_output(options.out);
+  files::check_outputs({{"FILE", options.target}, {"--rays", options.rays}},
+                       {{"--out", options.out}});
   std::vector<Cast> casts;
   casts.reserve(entries.size());
   for (const RayCastEntry* entry : entries) casts.push_back(ask(*entry, mesh, rays, options));
@@ -93,8 +95,10 @@ void add_rays(Arguments command) {
                                                     {"any", RayTask::any}};
   const auto options = std::make_shared<RaysOptions>();
   command
-      .text("FILE", options->target,
-            "A mesh (OBJ, OFF, STL or PLY), or a scene (TOML, or rigid-ipc's JSON)")
+      .text(
+          "FILE", options->target,
+          "A mesh (OBJ, OFF, STL or PLY; a face of more corners becomes a fan of triangles around "
+          "its first, which is right for convex faces), or a scene (TOML, or rigid-ipc's JSON)")
       .required();
   command.text("--rays", options->rays, "Rays: CSV with origin, direction and t_max").required();
   command.text("--cast", options->cast, "Ray casts: names joined by commas, or all").required();

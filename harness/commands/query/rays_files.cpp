@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/file_text.h"
 #include "harness/files/csv.h"
 
 namespace touchstone::commands {
@@ -19,14 +20,15 @@ std::vector<Ray> read_rays(const std::string& file) {
       const double value = row.number(column);
       if (!std::isfinite(value)) {
         row.fail(fmt::format("column {}: found {}; expected a finite number", row.name(column),
-                             row.text(column)));
+                             base::shortened(row.text(column))));
       }
       return value;
     };
     Ray ray{{finite(0), finite(1), finite(2)}, {finite(3), finite(4), finite(5)}, row.number(6)};
     if (ray.direction.isZero(0)) row.fail("the direction is zero; expected one that is not");
     if (!(ray.t_max >= 0)) {
-      row.fail(fmt::format("column t_max: found {}; expected 0 or more, or inf", row.text(6)));
+      row.fail(fmt::format("column t_max: found {}; expected 0 or more, or inf",
+                           base::shortened(row.text(6))));
     }
     rays.push_back(std::move(ray));
   });

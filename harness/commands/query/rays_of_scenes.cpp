@@ -11,6 +11,7 @@
 #include "harness/campaign/selection.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
+#include "harness/files/output_file.h"
 #include "harness/process/isolate.h"
 #include "harness/scene/player.h"
 
@@ -104,7 +105,8 @@ void cast_rays_at_scene(const RaysOptions& options) {
   const scene::Scene scene = scene::load_scene(options.target);
   const std::vector<SceneBody> bodies = bodies_at(scene, options.frame, options.target);
   const std::vector<Ray> rays = read_rays(options.rays);
-  files::check_output(options.out);
+  files::check_outputs({{"FILE", options.target}, {"--rays", options.rays}},
+                       {{"--out", options.out}});
   std::vector<SceneCast> casts;
   casts.reserve(entries.size());
   for (const SceneRayCastEntry* entry : entries)

@@ -95,10 +95,12 @@ int run_cells(const RunFileOptions& options) {
   return result.ours_wrong ? exit_measured_wrong : exit_done;
 }
 
-int run_file(const RunFileOptions& options) {
+int run_file(const RunFileOptions& options, const Option& threads) {
   if (!options.plan.empty()) return run_shard(options);
-  if (cells::has_cells(options.file)) return run_cells(options);
-  return check::has_case_work(options.file) ? run_cases(options) : run_trades(options);
+  const bool is_of_cells = cells::has_cells(options.file);
+  if (!is_of_cells && check::has_case_work(options.file)) return run_cases(options);
+  expect_not_given({threads}, "with a shard, or a table [check], [stress] or [soak] alone");
+  return is_of_cells ? run_cells(options) : run_trades(options);
 }
 
 }  // namespace
@@ -118,9 +120,10 @@ void add_run_file(Arguments command) {
             "Go on with the work that was stopped in the folder of --out; not for trades")
       .needs(file);
   add_shard(command, options->plan, options->shard).excludes(file);
-  add_threads(command, options->threads,
-              "Processes that share a check, a sweep or a soak (default: one a processor)");
-  command.job([options] { return run_file(*options); });
+  const Option threads =
+      add_threads(command, options->threads,
+                  "Processes that share a check, a sweep or a soak (default: one a processor)");
+  command.job([options, threads] { return run_file(*options, threads); });
 }
 
 }  // namespace touchstone::commands

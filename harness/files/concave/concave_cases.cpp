@@ -19,6 +19,7 @@ std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file) {
   for_each_json_line(file, "case", [&](const JsonNode& line) {
     line.as_object("a case: an object with \"id\", \"a\" and \"b\"");
     ConcaveCase& c = cases.emplace_back();
+    c.line = line.line();
     c.id = line.at("id", "a string").text("a string");
     const JsonNode a = line.at("a", "the first body"), b = line.at("b", "the second body");
     c.a = read_concave_body(a, c.pose_a);

@@ -1,6 +1,7 @@
 // Cases whose bodies need not be convex.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct ConcaveCase {
   ConcaveBody a, b;
   Pose pose_a, pose_b;
   bool is_convex = true;  // neither body is a mesh or a compound
+  std::int64_t line = 0;  // of the file; 0: it is from none
 };
 
 // Reads a file of cases as read_cases does, with meshes and compounds (concave_json.h). Throws

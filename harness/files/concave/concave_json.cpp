@@ -109,7 +109,7 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around,
       continue;
     }
     ConvexPart& part = parts.emplace_back();
-    read_body(node, part.shape, part.pose);
+    read_body(node, part.shape, part.pose, ", compound");
     geometry::place_within(around, part);
   }
 }
@@ -128,7 +128,7 @@ ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
     add_parts(node, around, read.parts);
     pose = read_pose(body);
   } else {
-    read_body(body, read.parts.emplace_back().shape, pose);
+    read_body(body, read.parts.emplace_back().shape, pose, ", mesh, compound");
   }
   return read;
 }

@@ -29,4 +29,10 @@ const Contestant* fastest_right(const SampleSet& set, Noise noise,
   });
 }
 
+std::set<std::int64_t> batches_of(const SampleSet& set) {
+  std::set<std::int64_t> batches;
+  for (const Contestant& contestant : set.contestants) batches.insert(contestant.batch);
+  return batches;
+}
+
 }  // namespace touchstone::stats

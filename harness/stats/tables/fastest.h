@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,10 @@ const Contestant* fastest(const SampleSet& set, Noise noise,
 // Returns the fastest of those that take part and are right; null if there is none.
 const Contestant* fastest_right(const SampleSet& set, Noise noise,
                                 const std::function<bool(const Contestant&)>& takes_part);
+
+// The batches of the set's contestants, ascending. Those of different batches are asked differently, and
+// do not compete.
+std::set<std::int64_t> batches_of(const SampleSet& set);
 
 // Returns the row of this set and label; null if there is none.
 template <class Row>

@@ -79,6 +79,8 @@ void columns(Row& row, Visit visit, double band) {
 template <record::row_of<WinnerRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
   key_columns(row.key, visit);
+  visit("batch", record::newer(row.batch),
+        "Pairs of a call, of all that the row compares, if the campaign sets it; empty: 256.");
   visit("winner", row.winner, "The fastest of those that answer right.");
   visit("runner_up", row.runner_up, "The next.");
   tested_columns(row, "The runner-up's time over the winner's.", visit);
@@ -186,6 +188,8 @@ void columns(Row& row, Visit visit) {
     visit(name + "_worst_error", one.worst_error, "Its greatest error, as in agreement.csv.");
     interval_columns(name + "_ratio", one.ratio, "Its time over that of ours.", visit);
   };
+  visit("batch", record::newer(row.batch),
+        "Pairs of a call, of all that the row compares, if the campaign sets it; empty: 256.");
   best("ours", row.ours, "The fastest of ours that is right.");
   best("right_peer", row.right_peer, "The fastest library that is right.");
   best("any_peer", row.any_peer, "The fastest library, right or not.");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "harness/stats/tables/fastest.h"
 #include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {
@@ -106,14 +107,15 @@ void add_library_ratios(const SampleSet& set, Noise noise, double depth_error,
   }
 }
 
-std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise, double depth_error) {
+std::optional<WinnerRow> winner_row(const SampleSet& set, std::int64_t batch, Noise noise,
+                                    double depth_error) {
   struct Entry {
     const Contestant* contestant;
     double ratio;  // logarithm of the ratio to the baseline
   };
   std::vector<Entry> entries;
   for (const Contestant& contestant : set.contestants) {
-    if (is_wrong(set, contestant) || contestant.failure) continue;
+    if (contestant.batch != batch || is_wrong(set, contestant) || contestant.failure) continue;
     if (worst_error(contestant) > depth_error) continue;
     if (!set.key.narrow() && contestant.label == limit_label) continue;
     // Ratios to the baseline compare contestants without a common square.
@@ -125,7 +127,8 @@ std::optional<WinnerRow> winner_row(const SampleSet& set, Noise noise, double de
   const Contestant& winner = *entries[0].contestant;
   const Contestant& runner_up = *entries[1].contestant;
   const TestedRatio tested = ratio_between(set, runner_up, winner, noise);
-  return WinnerRow{set.key, winner.label, runner_up.label, tested.ratio, tested.p, 1, set.suspect};
+  return WinnerRow{set.key,  batch, winner.label, runner_up.label, tested.ratio,
+                   tested.p, 1,     set.suspect};
 }
 
 }  // namespace
@@ -159,7 +162,10 @@ Tables make_tables(const Results& results, Noise noise, double depth_error) {
       tables.ratios.push_back(ratio_row(set, set.twin, base, true, noise));
     }
     add_library_ratios(set, noise, depth_error, tables.library_ratios);
-    if (auto row = winner_row(set, noise, depth_error)) tables.winners.push_back(*std::move(row));
+    for (const std::int64_t batch : batches_of(set)) {
+      if (auto row = winner_row(set, batch, noise, depth_error))
+        tables.winners.push_back(*std::move(row));
+    }
   }
   correct(tables.ratios, [](const RatioRow& row) { return !row.canary; });
   correct(tables.library_ratios, [](const RatioRow&) { return true; });

@@ -43,10 +43,11 @@ struct RatioRow {
   bool suspect = false;           // see SampleSet
 };
 
-// The fastest of the contestants that are right, against the next. A distance or depth is right if
+// The fastest of the contestants of a batch that are right, against the next. A distance or depth is right if
 // it is within the stated error.
 struct WinnerRow {
   SetKey key;
+  std::int64_t batch = -1;  // of both, see Contestant
   std::string winner, runner_up;
   MedianInterval ratio;  // ratio of the runner-up's time to the winner's
   double p = 1, p_corrected = 1;
@@ -117,7 +118,7 @@ struct BroadBestRow {
   double worst_frame;  // seconds of the longest frame of ours, see samples.h
 };
 
-// The fastest of ours among the narrow phases of a set, against the others, with their errors. An
+// The fastest of ours among the narrow phases of a set and batch, against the others, with their errors. An
 // algorithm is right if it has no wrong answer and no distance or depth off by more than the stated
 // error.
 struct NarrowBestRow {
@@ -129,6 +130,7 @@ struct NarrowBestRow {
     MedianInterval ratio = {};  // ratio of its time to that of ours
   };
   SetKey key;
+  std::int64_t batch = -1;  // of all of them, see Contestant
   Best ours;
   Best right_peer, any_peer;
 };

@@ -83,7 +83,7 @@ TEST_F(CompareCommand, BadRequests) {
   const Ran ran = run_program("compare " + path("a") + " " + path("broken.csv"));
   EXPECT_EQ(ran.status, 2);
   EXPECT_THAT(ran.text, testing::HasSubstr("broken.csv:"));
-  EXPECT_THAT(ran.text, testing::HasSubstr("2 fields; expected 43"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("2 fields; expected 44"));
   EXPECT_THAT(run_program("compare --help").text, testing::HasSubstr("3  undecided"));
 }
 

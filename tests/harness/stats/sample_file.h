@@ -23,6 +23,7 @@ struct FakeContestant {
   // Columns of its check rows: iterations to allocated_bytes, "" if not counted.
   std::string work = ",,,,,,,";
   std::string worst_error = {};  // the value in each of its check rows
+  std::string batch = {};        // pairs of a call
 };
 
 inline const char* origin_of(const std::string& name) {
@@ -59,7 +60,7 @@ struct FakeRun {
         "isa,pair_kind,phase,seconds,pair_count,pair_hash,contact_count,outcome_hash,"
         "disagreements,failures,status,kind,block,process,square,round,position,frames,twin,noise,"
         "stop,iterations,support_calls,box_tests,node_visits,candidates,bytes,allocations,"
-        "allocated_bytes,worst_error,origin\n";
+        "allocated_bytes,worst_error,origin,batch\n";
     std::mt19937_64 random(seed);
     std::normal_distribution<double> draw(0, 1);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -67,12 +68,12 @@ struct FakeRun {
       const bool narrow = !block.task.empty();
       const auto row = [&](const FakeContestant& c, int frame, const char* phase, double seconds,
                            const std::string& rest) {
-        text += fmt::format("fake,{},{},{},tight,{},{},{},{},{},,{},{},{},{},{},{},{}\n",
+        text += fmt::format("fake,{},{},{},tight,{},{},{},{},{},,{},{},{},{},{},{},{},{}\n",
                             block.scene, block.scene_hash, block.bodies, frame,
                             narrow ? "" : c.name, narrow ? c.name : "", narrow ? "double" : "",
                             block.task, block.threads, isa, block.pair_kind, phase,
                             std::isnan(seconds) ? std::string() : fmt::format("{}", seconds), rest,
-                            origin_of(c.name));
+                            origin_of(c.name), c.batch);
       };
       for (int frame = 0; frame < frames; ++frame) {
         for (const FakeContestant& c : block.contestants) {

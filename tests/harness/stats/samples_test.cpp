@@ -145,7 +145,7 @@ TEST_F(Samples, MalformedFilesAreToldWithTheirLine) {
   EXPECT_THAT(fault("1000", "many"), HasSubstr("raw.csv:2: column bodies: found 'many'"));
   folder_.write("raw.csv", raw.substr(0, raw.size() - 30));
   EXPECT_THAT(folder_.without_path(input_fault([&] { stats::read_results(folder_.path()); })),
-              HasSubstr("expected 43, as in the header"));
+              HasSubstr("expected 44, as in the header"));
   EXPECT_THAT(input_fault([&] { stats::read_results(folder_.path() / "none"); }),
               HasSubstr("No such file"));
 }

@@ -155,6 +155,32 @@ TEST_F(TablesOf, SpeedAndErrorOfTheBestNarrowPhases) {
   EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("| 16 of 400 | 1e-14 |"));
 }
 
+// What is asked in batches does not compete with what is asked pair by pair.
+TEST_F(TablesOf, BatchesAreComparedWithTheirOwn) {
+  FakeRun run;
+  FakeBlock block;
+  block.task = "intersect";
+  block.pair_kind = "hull-hull";
+  block.contestants = {{"gjk", 100e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "", "1"},
+                       {"gjk-lanes", 40e-9},
+                       {"sat", 50e-9},
+                       {"bullet-gjk-epa", 200e-9, "00000000000000aa", "ok", 0, ",,,,,,,", "", "1"}};
+  run.blocks = {block};
+  const stats::Tables tables = make(run);
+  ASSERT_EQ(tables.winners.size(), 2u);
+  EXPECT_EQ(tables.winners[0].batch, -1);
+  EXPECT_EQ(tables.winners[0].winner, "gjk-lanes double");
+  EXPECT_EQ(tables.winners[0].runner_up, "sat double");
+  EXPECT_EQ(tables.winners[1].batch, 1);
+  EXPECT_EQ(tables.winners[1].winner, "gjk double by 1");
+  EXPECT_NEAR(tables.winners[1].ratio.median, 2, 0.05);
+  ASSERT_EQ(tables.narrow_best.size(), 2u);
+  EXPECT_EQ(tables.narrow_best[0].ours.label, "gjk-lanes double");
+  EXPECT_EQ(tables.narrow_best[0].any_peer.label, "");
+  EXPECT_EQ(tables.narrow_best[1].ours.label, "gjk double by 1");
+  EXPECT_EQ(tables.narrow_best[1].right_peer.label, "bullet-gjk-epa double by 1");
+}
+
 TEST_F(TablesOf, NoiseIsLeftOutUnlessAskedForAndOutliersStay) {
   FakeRun run = fake_run();
   run.noisy_squares = 1;

@@ -1,0 +1,165 @@
+// Requests that would be done otherwise than asked, or that would lose a file, are refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/harness/commands/program.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+class Refusals : public ::testing::Test {
+ protected:
+  Refusals() {
+    folder.write("boxes.jsonl", std::string(boxes) + "\n");
+    folder.write("mesh.jsonl", std::string("\n") + boxes + "\n" + mesh + "\n");
+  }
+
+  std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+  void refuse(const std::string& arguments, const std::string& text) {
+    expect_refusal(arguments, text, folder);
+  }
+  // Expects that the second file is refused beside the first, and another one taken.
+  void expect_two_files(const std::string& command, const std::string& first,
+                        const std::string& second) {
+    refuse(command + " " + first + path("same.csv") + " " + second + path("same.csv"),
+           "name the same file");
+    const Ran ran =
+        run_program(command + " " + first + path("one.csv") + " " + second + path("two.csv"));
+    EXPECT_EQ(ran.status, 0) << ran.text;
+  }
+
+  static constexpr const char* boxes =
+      R"({"id":"x","a":{"shape":{"type":"box","half_extents":[1,1,1]}},)"
+      R"("b":{"shape":{"type":"box","half_extents":[1,1,1]},"translation":[3,0,0]}})";
+  static constexpr const char* mesh =
+      R"({"id":"m","a":{"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0]],"triangles":[[0,1,2]]}},)"
+      R"("b":{"shape":{"type":"box","half_extents":[1,1,1]},"translation":[3,0,0]}})";
+  TemporaryFolder folder;
+};
+
+TEST_F(Refusals, QueryOptionsThatNothingHeeds) {
+  const std::string out = " --out " + path("out.csv");
+  const std::string concave =
+      "query " + path("mesh.jsonl") + " --narrow fused --task distance" + out;
+  for (const std::string option : {"--margin", "--duality-gap"}) {
+    refuse(concave + " " + option + " 1", option + " was given; expected it with convex shapes");
+    for (const std::string task : {"intersect", "penetration"}) {
+      refuse("query " + path("boxes.jsonl") + " --narrow gjk --task " + task + out + " " + option +
+                 " 1",
+             option + " was given; expected it with --task distance");
+    }
+  }
+  const std::string convex = "query " + path("boxes.jsonl") + " --narrow gjk --task distance" + out;
+  refuse(convex + " --mid wide-bvh", "--mid was given; expected it with meshes");
+  refuse(convex + " --parts certified", "--parts was given; expected it with meshes");
+  refuse(convex + " --tolerance 1e-3 --duality-gap 1e-3", "excludes");
+  for (const std::string& heeded :
+       {concave + " --mid naive --parts certified --tolerance 1e-3 --max-iterations 90",
+        convex + " --margin 1 --tolerance 1e-3 --max-iterations 90"}) {
+    const Ran ran = run_program(heeded);
+    EXPECT_EQ(ran.status, 0) << ran.text;
+  }
+}
+
+TEST_F(Refusals, QueryTasksOfOtherPhases) {
+  const std::string more = " --narrow fused --task signed --out " + path("out.csv");
+  refuse("query " + path("boxes.jsonl") + more, "--narrow fused names concave phases");
+  refuse("query " + path("mesh.jsonl") + more, "mesh.jsonl:3: case 'm' has a mesh or a compound");
+}
+
+TEST_F(Refusals, UnknownShapes) {
+  const auto file = folder.write(
+      "odd.jsonl",
+      R"({"id":"x","a":{"shape":{"type":"ball","radius":1}},"b":{"shape":{"type":"sphere","radius":1}}})");
+  refuse("query " + file.string() + " --narrow gjk --task intersect --out " + path("out.csv"),
+         "halfspace, mesh, compound");
+}
+
+TEST_F(Refusals, ThreadsOfFilesThatHaveTheirOwn) {
+  for (const std::string table : {"cells", "trade"}) {
+    const auto file = folder.write("work.toml", "[" + table + "]\nof = \"rays\"\n");
+    refuse("run " + file.string() + " --threads 2 --out " + path("out"),
+           "--threads was given; expected it with a shard");
+  }
+}
+
+TEST_F(Refusals, OutputsThatWouldBeOneFile) {
+  folder.write("pairs.csv", "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n0,0,0,0,0,1,1,1\n");
+  const std::string query = "query " + path("mesh.jsonl") + " --narrow fused --task contacts ";
+  expect_two_files(query, "--out ", "--pairs ");
+  expect_two_files(query + "--out " + path("out.csv"), "--pairs ", "--contacts ");
+  expect_two_files("cast " + path("boxes.jsonl") + " --cast exact", "--out ",
+                   "--save-certificates ");
+  expect_two_files("pairs " + path("pairs.csv") + " --broad sort-and-sweep", "--out ", "--moved ");
+  std::filesystem::create_symlink(path("one.csv"), path("link.csv"));
+  refuse(query + "--out " + path("one.csv") + " --pairs " + path("link.csv"), "name the same file");
+  const Ran ran = run_program(query + "--out /dev/null --pairs /dev/null --contacts /dev/null");
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_EQ(run_program(query + "--out /dev/stdout --pairs /dev/stdout").status, 0);
+}
+
+TEST_F(Refusals, OutputsThatWouldReplaceInputs) {
+  const auto expect_kept = [&](const std::string& command, const std::string& file) {
+    const std::string before = folder.read(file);
+    for (const std::string& name : {path(file), path("./" + file),
+                                    path("../") + folder.path().filename().string() + "/" + file}) {
+      refuse(command + " --out " + name, "--out would overwrite");
+    }
+    EXPECT_EQ(folder.read(file), before);
+    const Ran ran = run_program(command + " --out " + path("out.csv"));
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    std::filesystem::remove(path("out.csv"));
+  };
+  folder.write("pairs.csv", "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n0,0,0,0,0,1,1,1\n");
+  folder.write("two.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+  folder.write("rays.csv",
+               "origin_x,origin_y,origin_z,direction_x,direction_y,direction_z,t_max\n"
+               "0.5,0.25,3,0,0,-1,inf\n");
+  folder.write("points.csv", "x,y,z\n0,0,1\n");
+  folder.write("ccd.csv", "0,0,1\n-1,-1,0\n1,-1,0\n0,1,0\n0,0,-1\n-1,-1,0\n1,-1,0\n0,1,0\n");
+  expect_kept("query " + path("boxes.jsonl") + " --narrow gjk --task distance", "boxes.jsonl");
+  expect_kept("query " + path("mesh.jsonl") + " --narrow fused --task distance", "mesh.jsonl");
+  expect_kept("cast " + path("boxes.jsonl") + " --cast exact", "boxes.jsonl");
+  expect_kept("ccd " + path("ccd.csv") + " --kind vertex-face --ccd exact", "ccd.csv");
+  expect_kept("pairs " + path("pairs.csv") + " --broad sort-and-sweep", "pairs.csv");
+  const std::string rays =
+      "rays " + path("two.obj") + " --rays " + path("rays.csv") + " --cast exact --task closest";
+  expect_kept(rays, "two.obj");
+  expect_kept(rays, "rays.csv");
+  const std::string points = "points " + path("two.obj") + " --points " + path("points.csv");
+  expect_kept(points, "two.obj");
+  expect_kept(points, "points.csv");
+}
+
+TEST_F(Refusals, MeshesWithoutFaces) {
+  folder.write("cloud.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\n");
+  folder.write("rays.csv",
+               "origin_x,origin_y,origin_z,direction_x,direction_y,direction_z,t_max\n"
+               "0.5,0.25,3,0,0,-1,inf\n");
+  folder.write("points.csv", "x,y,z\n0,0,1\n");
+  const std::string out = " --out " + path("out.csv");
+  refuse("rays " + path("cloud.obj") + " --rays " + path("rays.csv") + " --cast exact --task any" +
+             out,
+         "cloud.obj: the mesh has no faces");
+  refuse("points " + path("cloud.obj") + " --points " + path("points.csv") + out,
+         "cloud.obj: the mesh has no faces");
+}
+
+TEST_F(Refusals, PairsSayWhatTheyRound) {
+  const std::string columns = "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n";
+  const std::string rest = " --broad sort-and-sweep --out " + path("out.csv");
+  const auto exact = folder.write("exact.csv", columns + "0,0,0,0,0.5,1,1,1\n");
+  EXPECT_EQ(run_program("pairs " + exact.string() + rest).text.find("rounded"), std::string::npos);
+  const auto other =
+      folder.write("other.csv", columns + "0,0,0.1,0,0.5,1,1.3,1\n1,0,0,0,0,1,1,16777217\n");
+  const Ran ran = run_program("pairs " + other.string() + rest);
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_NE(ran.text.find("3 coordinates are not floats, and were rounded outwards"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace touchstone
