@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "algorithms/registry.h"
 #include "harness/base/plain_math.h"
@@ -140,6 +143,26 @@ Cell make_ccd_cell(const std::shared_ptr<CcdInput>& input, double tolerance,
   return cell;
 }
 
+// The files as they are told apart: without the folders that all of them are in.
+std::vector<std::string> short_names(const std::vector<std::string>& files) {
+  std::filesystem::path folder;
+  for (const std::string& file : files) {
+    const std::filesystem::path parent =
+        std::filesystem::path(file).lexically_normal().parent_path();
+    if (&file == &files.front()) folder = parent;
+    const auto differ = std::ranges::mismatch(folder, parent);
+    std::filesystem::path common;
+    for (auto part = folder.begin(); part != differ.in1; ++part) common /= *part;
+    folder = common;
+  }
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    names.push_back(
+        std::filesystem::path(file).lexically_normal().lexically_relative(folder).generic_string());
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesystem::path& home) {
@@ -163,13 +186,15 @@ std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesyste
                        }});
     }
     const std::string key = pair == FeaturePair::vertex_face ? "vertex_face" : "edge_edge";
-    for (const std::string& file : table.texts(key, {})) {
+    const std::vector<std::string> files = table.texts(key, {});
+    const std::vector<std::string> names = short_names(files);
+    for (std::size_t i = 0; i < files.size(); ++i) {
       try {
         const auto input = std::make_shared<CcdInput>();
         input->pair = pair;
-        input->queries = files::read_ccd_queries(home / file).queries;
-        cells.push_back({group, std::filesystem::path(file).filename().string(),
-                         [=] { return make_ccd_cell(input, tolerance, entries); }});
+        input->queries = files::read_ccd_queries(home / files[i]).queries;
+        cells.push_back(
+            {group, names[i], [=] { return make_ccd_cell(input, tolerance, entries); }});
       } catch (const base::InputError& error) {
         table.fail(key, error.what());
       }

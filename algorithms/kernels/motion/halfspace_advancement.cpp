@@ -14,9 +14,9 @@ namespace {
 
 constexpr double inward = 1 - 64 * std::numeric_limits<double>::epsilon();
 
-class Approach {
+class HalfspaceGap {
  public:
-  Approach(const MovingBody& a, const MovingBody& b)
+  HalfspaceGap(const MovingBody& a, const MovingBody& b)
       : bounds_(a, b), turning_(a, bounds_.angle_a()), rounding_(bounds_.placement_rounding()) {}
 
   // Bounds on the gap (metres), where the query has some, with its normal and points from a's origin.
@@ -60,11 +60,11 @@ void advance_onto_halfspace(const MovingBody& a, const MovingBody& b, const Adva
     outcome.status = Status::unsupported;
     return;
   }
-  const Approach approach(a, b);
+  const HalfspaceGap motion(a, b);
   outcome.status = Status::not_converged;
   double time = 0;
   for (; outcome.iterations < goal.most_steps; ++outcome.iterations) {
-    const Outcome found = approach.at(time);
+    const Outcome found = motion.at(time);
     const double tolerance =
         std::max(goal.tolerance.value_or(1e-9 * (a.shape->size + a.shape->radius)),
                  2 * (found.upper - found.lower));
@@ -74,17 +74,17 @@ void advance_onto_halfspace(const MovingBody& a, const MovingBody& b, const Adva
       outcome.answer = CastAnswer::hit;
       outcome.toi = time;
       outcome.normal = found.normal;
-      outcome.point = approach.to_world(found.witness_b, time);
-      const double speed = approach.speed(found.normal);
+      outcome.point = motion.to_world(found.witness_b, time);
+      const double speed = motion.speed(found.normal);
       for (double step = tolerance / speed, later = time; later < 1 && step > 0; step *= 8) {
         later = std::min(time + step, 1.0);
-        if (found.upper > 0 && !(approach.at(later).upper <= 0)) continue;
+        if (found.upper > 0 && !(motion.at(later).upper <= 0)) continue;
         outcome.upper = found.upper <= 0 ? time : later;
         break;
       }
       return;
     }
-    const double gap = found.lower, speed = approach.speed(found.normal);
+    const double gap = found.lower, speed = motion.speed(found.normal);
     // This form of the comparison ends the search for NaN.
     if (!(gap > 0)) return;
     if (gap > speed * (1 - time)) {

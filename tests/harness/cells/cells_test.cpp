@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -203,6 +204,25 @@ TEST(Cells, WrongFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(error_of(folder, "kind = \"motion\"\n"), HasSubstr("scenes"));
   EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nvertex_face = \"nothing.csv\"\n"),
               HasSubstr("nothing.csv"));
+}
+
+TEST(Cells, FilesOfQueriesOfOneNameAreToldApart) {
+  const TemporaryFolder folder;
+  std::string query;
+  for (int row = 0; row < 8; ++row)
+    query += std::to_string(row % 4) + ",1," + std::to_string(row / 4) + ",1,0,1,0\n";
+  std::filesystem::create_directories(folder.path() / "a/one");
+  std::filesystem::create_directories(folder.path() / "a/two");
+  folder.write("a/one/x.csv", query);
+  folder.write("a/two/x.csv", query);
+  const auto request = request_of(folder,
+                                  "kind = \"ccd\"\nfamilies = \"crossing\"\n"
+                                  "vertex_face = [\"a/one/x.csv\", \"a/two/x.csv\"]\n"
+                                  "edge_edge = \"a/two/x.csv\"\n");
+  std::vector<std::string> names;
+  for (const auto& cell : request.cells) names.push_back(cell.name);
+  EXPECT_THAT(names,
+              ::testing::ElementsAre("crossing", "one/x.csv", "two/x.csv", "crossing", "x.csv"));
 }
 
 TEST(Cells, OfTheProjectsFilesAreRead) {
