@@ -38,10 +38,22 @@
 
 #include "algorithms/ccd/directional_advancement/lane_advance.h"
 #include "algorithms/core/isa.h"
+#include "algorithms/kernels/features/scaled_edges.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 namespace {
+
+// Writes the outcome of a query that takes no step.
+void decide(const CcdQuery& query, const LaneBatch& batch, CcdAnswer answer, Status status,
+            double free_before) {
+  CcdOutcome& outcome = batch.outcomes[static_cast<std::size_t>(&query - batch.queries.data())];
+  outcome = {};
+  outcome.answer = answer;
+  outcome.status = status;
+  outcome.free_before = free_before;
+  outcome.iterations = 0;
+}
 
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/ccd/directional_advancement/lane_advance.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
@@ -73,52 +85,7 @@ class DirectionalAdvancement final : public Ccd {
   CcdSettings settings_;
 };
 
-// Returns true if along one of the axes all vertices of the first feature are further than the threshold from all of
-// the second, on the same side at time 0 and at time 1. An axis has no rounding of its own, so that the threshold
-// has room.
-bool an_axis_parts(const ScaledEdges& edges, bool is_face, double threshold) {
-  using Vector = Eigen::Map<const Vec3d>;
-  // The second feature's extent from the first's.
-  Vec3d least = Vec3d::Constant(4), greatest = -least;
-  for (const double* at : {edges.at.data(), edges.at.data() + 9}) {
-    const Vector x(at), y(at + 3), z(at + 6);
-    if (is_face) {
-      least = least.cwiseMin(x.cwiseMin(y).cwiseMin(z));
-      greatest = greatest.cwiseMax(x.cwiseMax(y).cwiseMax(z));
-    } else {
-      least = least.cwiseMin(y.cwiseMin(z) - x.cwiseMax(0));
-      greatest = greatest.cwiseMax(y.cwiseMax(z) - x.cwiseMin(0));
-    }
-  }
-  return (least.array() >= threshold).any() || (greatest.array() <= -threshold).any();
-}
-
 }  // namespace
-
-bool load_lane(const CcdQuery& query, const LaneBatch& batch, LaneQuery& lane) {
-  const auto decided = [&](CcdAnswer answer, Status status, double free_before) {
-    CcdOutcome& outcome = batch.outcomes[static_cast<std::size_t>(&query - batch.queries.data())];
-    outcome = {};
-    outcome.answer = answer;
-    outcome.status = status;
-    outcome.free_before = free_before;
-    outcome.iterations = 0;
-    return false;
-  };
-  if (!scale_edges(query.start, query.end, lane.edges)) {
-    return decided(CcdAnswer::unknown, Status::degenerate, 0);
-  }
-  const double separation = batch.separation * lane.edges.scale;
-  const double tolerance = batch.tolerance * lane.edges.scale;
-  constexpr double relative_error = 8 * 0x1p-53;
-  lane.threshold = separation * (1 + relative_error) + std::max(0.25 * tolerance, scaled_error);
-  lane.near = (separation + tolerance) * (1 - relative_error) - scaled_error;
-  if (an_axis_parts(lane.edges, batch.is_face, lane.threshold)) {
-    return decided(CcdAnswer::miss, Status::ok, 1);
-  }
-  return true;
-}
-
 }  // namespace touchstone
 
 namespace touchstone::entries {

@@ -208,11 +208,81 @@ struct LaneFeed {
   std::size_t next = 0;
 };
 
+// Three coordinates, and a fourth that is 0.
+using Row = simd::Quad<double>;
+using Rows = simd::baseline::Simd<double>;
+
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Row row_of(const Vec3d& v) { return Row{v[0], v[1], v[2], 0}; }
+
+// A query as ScaledEdges has it, with a vertex in each row.
+struct LaneQuery {
+  Row edges[6];
+  // In the unit of the edges:
+  double threshold;  // a gap of this length along a direction is free of contact
+  double near;       // witness points nearer than this are a hit
+};
+
+// Returns true if along one of the axes all vertices of the first feature are further than the threshold from all of
+// the second, on the same side at time 0 and at time 1. An axis has no rounding of its own, so that the threshold
+// has room.
+template <bool is_face>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool an_axis_parts(const LaneQuery& lane) {
+  const Row zero = {};
+  // The second feature's extent from the first's.
+  Row least = Rows::broadcast(4), greatest = Rows::broadcast(-4);
+  for (const Row* at : {lane.edges, lane.edges + 3}) {
+    Row low = Rows::min(at[1], at[2]), high = Rows::max(at[1], at[2]);
+    if constexpr (is_face) {
+      low = Rows::min(low, at[0]);
+      high = Rows::max(high, at[0]);
+    } else {
+      low = low - Rows::max(at[0], zero);
+      high = high - Rows::min(at[0], zero);
+    }
+    least = Rows::min(least, low);
+    greatest = Rows::max(greatest, high);
+  }
+  const Row apart = Rows::max(least, zero - greatest);
+  return Rows::reduce_max(apart) >= lane.threshold;
+}
+
+// Returns false if the query has its outcome: the edges overflow, or one of the axes parts the features at all
+// times.
+template <bool is_face>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool load_lane(const CcdQuery& query, const LaneBatch& batch,
+                                                   LaneQuery& lane) {
+  const Row first_start = row_of(query.start[0]), first_end = row_of(query.end[0]);
+  Row reaches = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    lane.edges[i] = row_of(query.start[i + 1]) - first_start;
+    lane.edges[i + 3] = row_of(query.end[i + 1]) - first_end;
+    reaches = Rows::max(reaches, Rows::max_abs(lane.edges[i], lane.edges[i + 3]));
+  }
+  const double scale = scale_of_edges(Rows::reduce_max(reaches));
+  if (scale == 0) {
+    decide(query, batch, CcdAnswer::unknown, Status::degenerate, 0);
+    return false;
+  }
+  for (Row& edge : lane.edges) edge = edge * Rows::broadcast(scale);
+  const double separation = batch.separation * scale, tolerance = batch.tolerance * scale;
+  constexpr double relative_error = 8 * 0x1p-53;
+  lane.threshold = separation * (1 + relative_error) + std::max(0.25 * tolerance, scaled_error);
+  lane.near = (separation + tolerance) * (1 - relative_error) - scaled_error;
+  if (!an_axis_parts<is_face>(lane)) return true;
+  decide(query, batch, CcdAnswer::miss, Status::ok, 1);
+  return false;
+}
+
+template <bool is_face>
 TOUCHSTONE_TARGET inline void refill(LaneGroup& group, std::size_t lane, LaneFeed& feed) {
   LaneQuery query;
   for (; feed.next < feed.batch.queries.size(); ++feed.next) {
-    if (!load_lane(feed.batch.queries[feed.next], feed.batch, query)) continue;
-    for (std::size_t i = 0; i < 18; ++i) group.edges[i][lane] = query.edges.at[i];
+    if (!load_lane<is_face>(feed.batch.queries[feed.next], feed.batch, query)) continue;
+    double at[4];
+    for (std::size_t i = 0; i < 6; ++i) {
+      Rows::store(at, query.edges[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis) group.edges[3 * i + axis][lane] = at[axis];
+    }
     group.threshold[lane] = query.threshold;
     group.near[lane] = query.near;
     group.time[lane] = 0;
@@ -248,7 +318,7 @@ TOUCHSTONE_TARGET inline void advance_group(LaneGroup& group, LaneFeed& feed) {
     } else {
       outcome.status = Status::not_converged;
     }
-    refill(group, lane, feed);
+    refill<is_face>(group, lane, feed);
   }
 }
 
@@ -258,7 +328,7 @@ TOUCHSTONE_TARGET inline void advance_all(const LaneBatch& batch) {
   LaneFeed feed{batch};
   LaneGroup groups[2] = {};
   for (LaneGroup& group : groups) {
-    for (std::size_t lane = 0; lane < LaneGroup::width; ++lane) refill(group, lane, feed);
+    for (std::size_t lane = 0; lane < LaneGroup::width; ++lane) refill<is_face>(group, lane, feed);
   }
   while ((groups[0].active | groups[1].active) != 0) {
     for (LaneGroup& group : groups) {

@@ -9,6 +9,16 @@
 
 namespace touchstone {
 
+double scale_of_edges(double reach) {
+  if (reach >= 0x1p-1000 && reach < 0x1p1000) {
+    // 2^-(e + 1) for a reach of exponent e.
+    const std::uint64_t biased = std::bit_cast<std::uint64_t>(reach) >> 52;
+    return std::bit_cast<double>((std::uint64_t{2045} - biased) << 52);
+  }
+  if (!std::isfinite(reach)) return 0;
+  return reach == 0 ? 1 : std::ldexp(1, std::clamp(-std::ilogb(reach) - 1, -1022, 1023));
+}
+
 bool scale_edges(const std::array<Vec3d, 4>& start, const std::array<Vec3d, 4>& end,
                  ScaledEdges& edges) {
   double* to = edges.at.data();
@@ -20,17 +30,8 @@ bool scale_edges(const std::array<Vec3d, 4>& start, const std::array<Vec3d, 4>& 
       Eigen::Map<Vec3d>{to} = edge;
     }
   }
-  const double reach = reaches.maxCoeff();
-  edges.scale = 1;
-  if (reach >= 0x1p-1000 && reach < 0x1p1000) {
-    // 2^-(e + 1) for a reach of exponent e.
-    const std::uint64_t biased = std::bit_cast<std::uint64_t>(reach) >> 52;
-    edges.scale = std::bit_cast<double>((std::uint64_t{2045} - biased) << 52);
-  } else if (!std::isfinite(reach)) {
-    return false;
-  } else if (reach != 0) {
-    edges.scale = std::ldexp(1, std::clamp(-std::ilogb(reach) - 1, -1022, 1023));
-  }
+  edges.scale = scale_of_edges(reaches.maxCoeff());
+  if (edges.scale == 0) return false;
   for (double& x : edges.at) x *= edges.scale;
   return true;
 }

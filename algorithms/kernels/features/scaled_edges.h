@@ -20,6 +20,9 @@ struct ScaledEdges {
 // algorithm says why it suffices.
 inline constexpr double scaled_error = 64 * 0x1p-53;
 
+// The scale of edges whose greatest magnitude of a coordinate is this; 0 if they overflow.
+double scale_of_edges(double reach);
+
 // Returns false if the edges overflow.
 bool scale_edges(const std::array<Vec3d, 4>& start, const std::array<Vec3d, 4>& end,
                  ScaledEdges& edges);
