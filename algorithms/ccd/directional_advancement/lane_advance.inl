@@ -242,6 +242,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool an_axis_parts(const LaneQuery& lane) {
     least = Rows::min(least, low);
     greatest = Rows::max(greatest, high);
   }
+  // The fourth is 0, and the threshold is greater.
   const Row apart = Rows::max(least, zero - greatest);
   return Rows::reduce_max(apart) >= lane.threshold;
 }

@@ -8,8 +8,8 @@
 // that fall from |x| to |y| and |z|, these are |x| - |y|, |y| - |z| and |z|.
 //
 // All this is in floats, with u half an epsilon of theirs. The normal keeps its length, 1 up to rounding, so that its
-// magnitudes sum up to 2 at most. A point of a polytope is within thrice the reach, and n . (R x + t) is off by less
-// than 128 u of what is greatest: norms of the rotations times that, and t.
+// magnitudes sum up to 2 at most. A coordinate of a polytope's point is at most twice the reach, and
+// n . (R x + t) is off by less than 128 u of the sum of t and of each rotation's norm times its body's reach.
 #include "algorithms/concave/part_pairs/hull_separation.h"
 
 #include <algorithm>

@@ -27,7 +27,8 @@ class DiscretePolytope {
   // The middle of its ends along the axes, and about the radius of a ball around it that the mesh's hull holds.
   const Vector& centre() const { return centre_; }
   float inner() const { return inner_; }
-  // The greatest magnitude of an end along one of the ways: half of that of a coordinate of any point, at least.
+  // The greatest magnitude of an end along one of the ways (metres). No coordinate of a point of the polytope is
+  // greater than twice that.
   float reach() const { return reach_; }
 
  private:
