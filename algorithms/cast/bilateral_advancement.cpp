@@ -7,8 +7,8 @@
 //             root finder of secants and bisections finds; this is the new end. Repeat step 2 until no points
 //             are past each other there.
 //          4. From the beginning: prove that n parts the bodies up to that end, piece by piece
-//             (kernels/motion/parting_step), and go on where the proof ends.
-//          5. Repeat until the distance is within the tolerance (kernels/motion/advancement).
+//             (kernels/motion/advancement/parting_step), and go on where the proof ends.
+//          5. Repeat until the distance is within the tolerance (kernels/motion/advancement/advancement).
 // Departs: the published method takes what it finds at the end for what holds all the way there, and cannot
 //          know: bodies that turn may be past each other along n in between, and such a contact is missed.
 //          Step 4 is ours, and with it an answer is certified. Without rotation the gap along n is linear,
@@ -19,7 +19,7 @@
 //          larger body's size.
 #include <optional>
 
-#include "algorithms/kernels/motion/advancing_cast.h"
+#include "algorithms/kernels/motion/advancement/advancing_cast.h"
 
 namespace touchstone {
 namespace {
@@ -95,12 +95,14 @@ struct BilateralStep {
 FreeUntil BilateralStep::step(const RelativeMotion& motion, SupportPair<double>& pair,
                               const PartingPlane& plane) {
   constexpr int most_pieces = 32;
-  FreeUntil free = longest_step(motion, pair, plane);
+  // Its axis keeps its direction.
+  const PartingPlane fixed = {plane.time, plane.normal, plane.gap};
+  FreeUntil free = longest_step(motion, pair, fixed);
   const bool turns = motion.a().motion->turns() || motion.b().motion->turns();
   if (free.to_the_end || !turns || !(free.time > plane.time)) return free;
   // Where a piece ends with the gap used up, the next plane is better.
   const double enough = 0.3 * plane.gap;
-  PartingPlane piece = plane;
+  PartingPlane piece = fixed;
   std::optional<double> end;
   for (int k = 0; k < most_pieces; ++k) {
     SupportPair<double> there = motion.at(free.time);

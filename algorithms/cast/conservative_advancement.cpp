@@ -7,13 +7,13 @@
 //             mu = -n . v + |n x w_a| rho_a + |n x w_b| rho_b, with v the velocity of b's origin from a's,
 //             w the rotation vectors and rho the greatest distance of a body's points from its origin.
 //          3. Go on by distance / mu; if that is beyond the end, it is a miss. Repeat until the distance
-//             is within the tolerance (kernels/motion/advancement).
+//             is within the tolerance (kernels/motion/advancement/advancement).
 // Departs: the distance is the gap of GJK's plane less a bound on all rounding, so that no contact is
 //          missed. The ball of a sphere or capsule does not count towards rho.
 // Fails:   unknown / not_converged at the cap of 2,000 steps: it converges linearly, with a factor near 1
 //          where mu is far above the true speed (long bodies that turn).
 // Cost:    a GJK distance a step. Tolerance: 1e-9 of the larger body's size.
-#include "algorithms/kernels/motion/advancing_cast.h"
+#include "algorithms/kernels/motion/advancement/advancing_cast.h"
 
 namespace touchstone {
 namespace {

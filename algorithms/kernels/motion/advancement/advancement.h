@@ -2,7 +2,8 @@
 // Used by conservative-advancement, rigid-advancement and bilateral-advancement, which differ in the step.
 // Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies; for spheres and
 //             capsules a closed form does (round_cores).
-//          2. If they are within the tolerance, it is a hit.
+//          2. If they are within the tolerance, it is a hit. Otherwise the features say how the plane turns
+//             (turning_normal).
 //          3. The step says until when that plane proves them apart; if until the end, it is a miss.
 //          4. Go there, and repeat.
 //          5. Prove contact a little later, for the upper end of the bracket (contact_by).
@@ -12,8 +13,8 @@
 
 #include "algorithms/core/cast_outcome.h"
 #include "algorithms/kernels/gjk/warm_start.h"
-#include "algorithms/kernels/motion/contact_by.h"
-#include "algorithms/kernels/motion/parting_step.h"
+#include "algorithms/kernels/motion/advancement/contact_by.h"
+#include "algorithms/kernels/motion/advancement/parting_step.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
 namespace touchstone {

@@ -1,10 +1,10 @@
 // Proofs of contact by GJK, or the closest points of round bodies.
-#include "algorithms/kernels/motion/contact_by.h"
+#include "algorithms/kernels/motion/advancement/contact_by.h"
 
 #include <algorithm>
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
-#include "algorithms/kernels/motion/round_cores.h"
+#include "algorithms/kernels/motion/advancement/round_cores.h"
 
 namespace touchstone {
 

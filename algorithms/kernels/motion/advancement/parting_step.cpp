@@ -1,5 +1,5 @@
 // The longest step in which a plane parts turning bodies.
-#include "algorithms/kernels/motion/parting_step.h"
+#include "algorithms/kernels/motion/advancement/parting_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,17 +7,22 @@
 namespace touchstone {
 namespace {
 
-// A body's part of the gap along a direction n that points away from it.
+// A body's part of the gap along a direction n that points away from it, seen from what turns with n.
 class Reach {
  public:
-  Reach(PosedShape<double>& shape, const Vec3d& centre, const Vec3d& rotation_vector, double angle,
-        double unit, double greatest, const Vec3d& n)
-      : shape_(shape),
-        centre_(centre),
-        n_(n),
-        turn_(n.cross(rotation_vector)),
-        unit_(unit),
-        bend_(turn_.norm() * angle * greatest) {}
+  // `turn` is the body's angular velocity, of length `angle`, and `turning` that of n.
+  Reach(PosedShape<double>& shape, const Vec3d& centre, const Vec3d& turn, double angle,
+        const Vec3d& turning, double unit, double greatest, const Vec3d& n)
+      : shape_(shape), centre_(centre), n_(n), turn_(n.cross(turn - turning)), unit_(unit) {
+    if (turning.isZero(0)) {
+      fastest_ = angle;
+      bend_ = turn_.norm() * angle * greatest;
+    } else {
+      const double square = (turn - turning).squaredNorm();
+      fastest_ = std::sqrt(square);
+      bend_ = (square + turning.cross(turn).norm()) * greatest;
+    }
+  }
 
   // Adds the body's centre and core: value is an upper bound on how far they reach along n after h,
   // less the part that is linear in time and the same for all points.
@@ -29,12 +34,14 @@ class Reach {
   // The rate at which the support point of the last call moves along n.
   double speed() const { return turn_.dot(unit_ * support_ + centre_); }
   double bend() const { return bend_; }
+  // The angular velocity relative to n's.
+  double fastest() const { return fastest_; }
 
  private:
   PosedShape<double>& shape_;
   Vec3d centre_;  // from the body's origin, at the time
   Vec3d n_, turn_, support_ = Vec3d::Zero();
-  double unit_, bend_;
+  double unit_, bend_, fastest_;
 };
 
 // How long balls about the bodies' origins stay apart along the plane; 0 if they are not.
@@ -61,18 +68,27 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
   const double balls = balls_apart(motion, plane, slack);
   if (balls > left) return {1, true};
 
+  const Vec3d& turning = plane.turning;
   Reach of_a(pair.a(), motion.centre_a(plane.time), motion.a().motion->rotation_vector,
-             motion.angle_a(), unit, motion.reach_a(), n);
+             motion.angle_a(), turning, unit, motion.reach_a(), n);
   Reach of_b(pair.b(), motion.centre_b(plane.time), motion.b().motion->rotation_vector,
-             motion.angle_b(), unit, motion.reach_b(), -n);
-  const double closing = n.dot(motion.displacement());
-  const double bend = of_a.bend() + of_b.bend();
+             motion.angle_b(), turning, unit, motion.reach_b(), -n);
+  double closing = n.dot(motion.displacement());
+  double bend = of_a.bend() + of_b.bend();
+  double fastest = std::max(of_a.fastest(), of_b.fastest());
+  if (!turning.isZero(0)) {
+    const Vec3d away = motion.offset(plane.time);
+    const double furthest = std::max(away.norm(), motion.offset(1).norm());
+    const double turn = turning.norm();
+    closing -= n.dot(turning.cross(away));
+    bend += turning.cross(n).norm() * (turn * furthest + 2 * motion.displacement().norm());
+    fastest = std::max(fastest, turn);
+  }
   const double apart = unit * (n.dot(pair.centre_b()) - pair.radius()) - slack;
   const auto gap = [&](double h) {
     return apart + h * closing - of_a.value(h) - of_b.value(h) - 0.5 * h * h * bend;
   };
   const double now = gap(0);
-  const double fastest = std::max(motion.angle_a(), motion.angle_b());
   double end = std::min(left, greatest_turn / std::max(fastest, 1e-300));
   // gap(h) is at most now + rate h - bend h^2 / 2, which is zero at the guess.
   const double rate = closing - of_a.speed() - of_b.speed();
@@ -91,7 +107,7 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
     constexpr double inward = 1 - 1e-12;
     free = end * now / (now - at_end) * inward;
     double open = now, begin = 0;
-    for (int k = 0; k < 2 && free > begin; ++k) {
+    for (int k = 0; k < 1 && free > begin; ++k) {
       const double here = gap(free);
       if (!(here > 0.02 * open)) break;
       open = here;

@@ -2,7 +2,7 @@
 // bilateral-advancement.
 #pragma once
 
-#include "algorithms/kernels/motion/advancement.h"
+#include "algorithms/kernels/motion/advancement/advancement.h"
 
 namespace touchstone {
 

@@ -2,7 +2,7 @@
 // bodies close along its normal, and their turn adds.
 //
 // The gap at a time is bounded by the query of poses as they were placed, which are off by placement_rounding.
-#include "algorithms/kernels/motion/halfspace_advancement.h"
+#include "algorithms/kernels/motion/advancement/halfspace_advancement.h"
 
 #include <algorithm>
 #include <limits>
@@ -60,11 +60,11 @@ void advance_onto_halfspace(const MovingBody& a, const MovingBody& b, const Adva
     outcome.status = Status::unsupported;
     return;
   }
-  const HalfspaceGap motion(a, b);
+  const HalfspaceGap gaps(a, b);
   outcome.status = Status::not_converged;
   double time = 0;
   for (; outcome.iterations < goal.most_steps; ++outcome.iterations) {
-    const Outcome found = motion.at(time);
+    const Outcome found = gaps.at(time);
     const double tolerance =
         std::max(goal.tolerance.value_or(1e-9 * (a.shape->size + a.shape->radius)),
                  2 * (found.upper - found.lower));
@@ -74,17 +74,21 @@ void advance_onto_halfspace(const MovingBody& a, const MovingBody& b, const Adva
       outcome.answer = CastAnswer::hit;
       outcome.toi = time;
       outcome.normal = found.normal;
-      outcome.point = motion.to_world(found.witness_b, time);
-      const double speed = motion.speed(found.normal);
+      outcome.point = gaps.to_world(found.witness_b, time);
+      if (found.upper <= 0) {
+        outcome.upper = time;
+        return;
+      }
+      const double speed = gaps.speed(found.normal);
       for (double step = tolerance / speed, later = time; later < 1 && step > 0; step *= 8) {
         later = std::min(time + step, 1.0);
-        if (found.upper > 0 && !(motion.at(later).upper <= 0)) continue;
-        outcome.upper = found.upper <= 0 ? time : later;
+        if (!(gaps.at(later).upper <= 0)) continue;
+        outcome.upper = later;
         break;
       }
       return;
     }
-    const double gap = found.lower, speed = motion.speed(found.normal);
+    const double gap = found.lower, speed = gaps.speed(found.normal);
     // This form of the comparison ends the search for NaN.
     if (!(gap > 0)) return;
     if (gap > speed * (1 - time)) {

@@ -1,14 +1,18 @@
 // How long a plane parts two turning bodies. Used by rigid-advancement and bilateral-advancement.
-// Steps:   1. A point rho of a body moves in time h to rho + h w x rho + r, where |r| along n is at most
-//             h^2 / 2 |n x w| |w| |rho|. So the body reaches no further along n than the support
-//             value along n + h (n x w), plus that: the gap after h is at least
-//               gap(h) = n . offset + h n . v - S_a(n + h n x w_a) - S_b(-n - h n x w_b) - k h^2 / 2.
+// Steps:   1. The plane's normal n may turn too, with the angular velocity w, as where it belongs to a face of a body;
+//             then all is seen from what turns with n. A point rho of a body that turns with v moves in time h to
+//             rho + h (v - w) x rho + r, where |r| along n is at most
+//             h^2 / 2 (|v - w|^2 + |w x v|) |rho|, and for w = 0 at most h^2 / 2 |n x v| |v| |rho|. So the body reaches
+//             no further along n than the support value along n + h n x (v - w), plus that. The offset o of the
+//             origins, which moves with u, has along n at least
+//             n . o + h n . (u - w x o) - h^2 / 2 |n x w| (|w| |o| + 2 |u|), with the greatest |o|. So the gap is at least
+//               gap(h) = n . o + h n . (u - w x o) - S_a(n + h n x (v_a - w)) - S_b(-n - h n x (v_b - w)) - k h^2 / 2.
 //             Supports are convex functions, so gap is concave: what is proven at the end of a step holds
 //             all along it.
 //          2. Guess h by taking the support points as fixed, which is never too short. If the gap is
 //             open there, go on there. Otherwise the chord from 0 gives an h at which it is open by
-//             concavity; improve that by chords twice.
-//          3. If balls about the bodies' origins stay apart along n for longer, take that time.
+//             concavity; one more chord improves it.
+//          3. If balls about the bodies' origins stay apart along the fixed n for longer, take that time.
 // Fails:   steps are short at many turns, where the bound k belongs to the whole body.
 // Cost:    two to four support calls.
 #pragma once
@@ -22,6 +26,8 @@ struct PartingPlane {
   double time;
   Vec3d normal;  // unit vector from a to b
   double gap;    // metres; proven beyond rounding, > 0
+  // The angular velocity with which the normal's features turn (radians in the whole time, world axes), or zero.
+  Vec3d turning = Vec3d::Zero();
 };
 
 // How long a plane parts the bodies.

@@ -1,5 +1,5 @@
 // Closest points of two segments about their centres.
-#include "algorithms/kernels/motion/round_cores.h"
+#include "algorithms/kernels/motion/advancement/round_cores.h"
 
 #include <algorithm>
 

@@ -1,13 +1,14 @@
 // GJK at one time of an advancement, and the outcome of a hit.
-#include "algorithms/kernels/motion/advancement.h"
+#include "algorithms/kernels/motion/advancement/advancement.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/gjk/separation_along.h"
-#include "algorithms/kernels/motion/contact_by.h"
-#include "algorithms/kernels/motion/round_cores.h"
+#include "algorithms/kernels/motion/advancement/contact_by.h"
+#include "algorithms/kernels/motion/advancement/round_cores.h"
+#include "algorithms/kernels/motion/advancement/turning_normal.h"
 
 namespace touchstone {
 
@@ -90,10 +91,21 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   const bool inside = found.end == GjkDistanceResult<double>::End::contact;
   // A simplex nearer than the radii ends the search early, without the plane.
   const double upper = inside ? 0.0 : unit * (found.upper - pair.radius());
-  if (!inside && upper > tolerance_) return apart(pair, time, found.direction, found.lower);
+  if (!inside && upper > tolerance_) {
+    Advancement result = apart(pair, time, found.direction, found.lower);
+    if (pair.is_polytope()) {
+      result.plane.turning =
+          turning_of_normal(found.simplex, found.direction, motion_.a().motion->rotation_vector,
+                            motion_.b().motion->rotation_vector);
+    }
+    return result;
+  }
   Simplex<double> simplex = found.simplex;
-  if (simplex.size == 4) simplex.size = 3;  // an inner point has no weights
-  const NearestPoint<double> nearest = reduce_to_nearest(simplex);
+  NearestPoint<double> nearest = found.nearest;
+  if (simplex.size == 4) {
+    simplex.size = 3;  // an inner point has no weights
+    nearest = reduce_to_nearest(simplex);
+  }
   const DifferencePoint<double> mean = weighted_mean(simplex);
   return hit(pair, {time, mean.a, mean.b - pair.centre_b()},
              found.nearest.inside ? Vec3d(Vec3d::Zero()) : Vec3d(-nearest.direction));

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "algorithms/cast.h"
-#include "algorithms/kernels/motion/advancement.h"
-#include "algorithms/kernels/motion/halfspace_advancement.h"
+#include "algorithms/kernels/motion/advancement/advancement.h"
+#include "algorithms/kernels/motion/advancement/halfspace_advancement.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
 #include "algorithms/kernels/motion/moving_scene.h"
 
