@@ -12,7 +12,8 @@
 //             their distance, and so the depth of the balls around them.
 //          6. Cores that meet: prove that no other height is less, close to the normal by curvature and
 //             elsewhere by a polytope (least_overlap).
-//          7. What is not proven is solved as `gjk` does.
+//          7. What is not proven is solved as `gjk` does. A signed distance goes by step 5 or 6, as GJK
+//             tells.
 // Departs: the normal is searched where two ends of a body tie, or a disc is flat, too: active sets,
 //          with the balance of the tied points as their multipliers.
 // Warm:    the plane that parted a pair at a verdict, or instead of a depth (warm_planes).
@@ -67,7 +68,7 @@ class SmoothNormals final : public NarrowPhase {
       for (std::size_t i = 0; i < batch.size(); ++i) decide(batch.pairs, i, nullptr, outcomes[i]);
       return;
     }
-    for_each_bounded_pair(task, batch, shapes_, ahead_, task == Task::distance, outcomes,
+    for_each_bounded_pair(task, batch, shapes_, ahead_, asks_distance(task), outcomes,
                           [&](std::size_t i, const auto&... bodies) {
                             solve_pair(task, bodies..., nullptr, outcomes[i]);
                           });
@@ -163,15 +164,15 @@ class SmoothNormals final : public NarrowPhase {
     };
     Cores cores(a, core_of(a), pose_a, b, core_of(b), pose_b);
     SupportPair<double>& pair = cores.pair;
-    // Cores within balls: their distance is wanted, whatever the task.
-    const GjkDistanceGoal<double> goal{.task = cores.radius() > 0 ? Task::distance : task,
+    // The distance of cores within balls is wanted, whatever the task.
+    const bool to_distance = cores.radius() > 0 || asks_distance(task);
+    const GjkDistanceGoal<double> goal{.task = to_distance ? Task::distance : task,
                                        .tolerance = coarse,
                                        .most_iterations = settings_.gjk_cap};
     const GjkDistanceResult<double> found = gjk_distance(pair, goal);
     outcome.iterations = found.iterations;
     if (found.end == End::contact) {
-      return task == Task::penetration && found.nearest.inside &&
-             solve_depth(cores, found.simplex, outcome);
+      return asks_depth(task) && found.nearest.inside && solve_depth(cores, found.simplex, outcome);
     }
     const double lower = found.lower - cores.radius();
     if (task == Task::penetration && lower > rounding) {
@@ -206,7 +207,7 @@ class SmoothNormals final : public NarrowPhase {
     }
     outcome.status = Status::ok;
     outcome.support_calls = cores.pair.support_calls() + foot->support_calls;
-    const bool asked = (task == Task::distance) == (outcome.answer == Answer::separated);
+    const bool asked = outcome.answer == Answer::separated ? asks_distance(task) : asks_depth(task);
     if (asked) write(cores, *foot, upper, lower, upper, outcome);
     return true;
   }
@@ -275,7 +276,7 @@ std::vector<NarrowPhaseEntry> narrow_phase_smooth() {
                     .citation = "Gilbert, Johnson, Keerthi, 1988; Newton's method on the sphere of "
                                 "normals: Absil, Mahony, Sepulchre, \"Optimization Algorithms on "
                                 "Matrix Manifolds\", 2008"},
-           .tasks = {Task::intersect, Task::distance, Task::penetration},
+           .tasks = {all_tasks.begin(), all_tasks.end()},
            .scalars = {Precision::float64},
            .supports = takes,
            .traits = {.starts_warm = true},
