@@ -103,8 +103,8 @@ template <fcl::CCDSolverType solver>
 std::unique_ptr<Cast> make_fcl_cast(const CastSettings& settings) {
   return std::make_unique<FclCast>(solver, settings);
 }
-constexpr auto make_advancement = make_fcl_cast<fcl::CCDC_CONSERVATIVE_ADVANCEMENT>;
-constexpr auto make_naive = make_fcl_cast<fcl::CCDC_NAIVE>;
+constexpr auto make_advancement_cast = make_fcl_cast<fcl::CCDC_CONSERVATIVE_ADVANCEMENT>;
+constexpr auto make_naive_cast = make_fcl_cast<fcl::CCDC_NAIVE>;
 
 }  // namespace
 }  // namespace touchstone
@@ -131,7 +131,7 @@ std::vector<CastEntry> peers_fcl_casts() {
        .scalars = {Precision::float64},
        .rotation = true,
        .supports = supports,
-       .make = make_advancement},
+       .make = make_advancement_cast},
       {.info = {.name = "fcl-naive",
                 .citation = "FCL 0.7, continuousCollide, CCDC_NAIVE, with InterpMotion",
                 .origin = Origin::peer,
@@ -139,7 +139,7 @@ std::vector<CastEntry> peers_fcl_casts() {
        .scalars = {Precision::float64},
        .rotation = true,
        .supports = supports,
-       .make = make_naive}};
+       .make = make_naive_cast}};
 }
 
 }  // namespace touchstone::entries

@@ -12,29 +12,18 @@
 // Cost:    a binary tree for each mesh; intervals with fewer roundings at first, exact numbers behind.
 #include "algorithms/concave_phase.h"
 #ifdef TOUCHSTONE_HAS_CGAL
-#if defined(__GNUC__) && !defined(__clang__)
-// This is a false alarm of g++ 12 about CGAL's counted references.
-#pragma GCC diagnostic ignored "-Wuse-after-free"
-#endif
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Rigid_triangle_mesh_collision_detection.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <array>
 
+#include "algorithms/peers/cgal_trees.h"
+
 namespace touchstone {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-Kernel::Point_3 to_cgal(const Vec3d& v) { return {v[0], v[1], v[2]}; }
+using namespace cgal;
+using Surface = CGAL::Surface_mesh<Point>;
 
 Kernel::Aff_transformation_3 to_cgal(const Pose& pose) {
   const auto& r = pose.rotation;
@@ -84,11 +73,11 @@ class CgalMeshes final : public ConcavePhase {
   void add(const TriangleMesh& mesh, Body& body) {
     body.solid = mesh.solid;
     std::vector<Surface::Vertex_index> vertices;
-    for (const Vec3d& v : mesh.vertices) vertices.push_back(body.surface.add_vertex(to_cgal(v)));
+    for (const Vec3d& v : mesh.vertices) vertices.push_back(body.surface.add_vertex(to_point(v)));
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
       const auto& [a, b, c] = mesh.triangles[k];
-      const Kernel::Triangle_3 triangle(to_cgal(mesh.vertices[a]), to_cgal(mesh.vertices[b]),
-                                        to_cgal(mesh.vertices[c]));
+      const Kernel::Triangle_3 triangle(to_point(mesh.vertices[a]), to_point(mesh.vertices[b]),
+                                        to_point(mesh.vertices[c]));
       if (triangle.is_degenerate()) continue;
       body.triangles.push_back(triangle);
       body.numbers.push_back(k);

@@ -11,28 +11,17 @@
 // Cost:    O(log n) a point; a binary tree.
 #include "algorithms/point_query.h"
 #ifdef TOUCHSTONE_HAS_CGAL
-#if defined(__GNUC__) && !defined(__clang__)
-// This is a false alarm of g++ 12 about CGAL's counted references.
-#pragma GCC diagnostic ignored "-Wuse-after-free"
-#endif
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/helpers.h>
 
+#include "algorithms/peers/cgal_trees.h"
+
 namespace touchstone {
 namespace {
 
-using PointKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using PointTriangles = std::vector<PointKernel::Triangle_3>;
-using PointPrimitive = CGAL::AABB_triangle_primitive<PointKernel, PointTriangles::const_iterator>;
-using PointTree = CGAL::AABB_tree<CGAL::AABB_traits<PointKernel, PointPrimitive>>;
-using PointSurface = CGAL::Surface_mesh<PointKernel::Point_3>;
-
-PointKernel::Point_3 point_to_cgal(const Vec3d& v) { return {v[0], v[1], v[2]}; }
+using namespace cgal;
+using PointSurface = CGAL::Surface_mesh<Point>;
 
 class CgalPointQuery final : public PointQuery {
  public:
@@ -43,13 +32,12 @@ class CgalPointQuery final : public PointQuery {
     sides_.reset();
     surface_.clear();
     std::vector<PointSurface::Vertex_index> vertices;
-    for (const Vec3d& v : mesh.vertices) vertices.push_back(surface_.add_vertex(point_to_cgal(v)));
+    for (const Vec3d& v : mesh.vertices) vertices.push_back(surface_.add_vertex(to_point(v)));
     bool valid = true;
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
       const auto& [a, b, c] = mesh.triangles[k];
-      const PointKernel::Triangle_3 triangle(point_to_cgal(mesh.vertices[a]),
-                                             point_to_cgal(mesh.vertices[b]),
-                                             point_to_cgal(mesh.vertices[c]));
+      const Kernel::Triangle_3 triangle(to_point(mesh.vertices[a]), to_point(mesh.vertices[b]),
+                                        to_point(mesh.vertices[c]));
       if (triangle.is_degenerate()) {
         valid = false;
         continue;
@@ -82,7 +70,7 @@ class CgalPointQuery final : public PointQuery {
   void find_closest(const Vec3d& point, PointAnswer& answer) const {
     answer.status = Status::not_reported;
     if (triangles_.empty()) return;
-    const auto [at, of] = tree_.closest_point_and_primitive(point_to_cgal(point));
+    const auto [at, of] = tree_.closest_point_and_primitive(to_point(point));
     answer.closest = Vec3d(at.x(), at.y(), at.z());
     answer.triangle = numbers_[static_cast<std::size_t>(of - triangles_.begin())];
     answer.distance = (answer.closest - point).stableNorm();
@@ -90,18 +78,18 @@ class CgalPointQuery final : public PointQuery {
 
   void find_side(const Vec3d& point, PointAnswer& answer) const {
     answer.status = Status::not_reported;
-    switch ((*sides_)(point_to_cgal(point))) {
+    switch ((*sides_)(to_point(point))) {
       case CGAL::ON_BOUNDED_SIDE: answer.side = PointSide::inside; break;
       case CGAL::ON_BOUNDARY: answer.side = PointSide::surface; break;
       case CGAL::ON_UNBOUNDED_SIDE: answer.side = PointSide::outside; break;
     }
   }
 
-  PointTriangles triangles_;
+  Triangles triangles_;
   std::vector<std::uint32_t> numbers_;  // of the triangles, in the mesh
-  PointTree tree_;
+  Tree tree_;
   PointSurface surface_;
-  std::optional<CGAL::Side_of_triangle_mesh<PointSurface, PointKernel>> sides_;
+  std::optional<CGAL::Side_of_triangle_mesh<PointSurface, Kernel>> sides_;
 };
 
 std::unique_ptr<PointQuery> make_cgal_points() { return std::make_unique<CgalPointQuery>(); }

@@ -10,26 +10,17 @@
 // Cost:    O(log n) a ray where triangles are small; a binary tree.
 #include "algorithms/ray_cast.h"
 #ifdef TOUCHSTONE_HAS_CGAL
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/peers/cgal_trees.h"
 #include "algorithms/peers/rays/segment_rays.h"
 
 namespace touchstone {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using namespace cgal;
 
-Point to_cgal(const Vec3d& v) { return {v[0], v[1], v[2]}; }
 Vec3d from_cgal(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 class CgalRayCast final : public RayCast {
@@ -41,8 +32,8 @@ class CgalRayCast final : public RayCast {
     numbers_.clear();
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
       const auto& [a, b, c] = mesh.triangles[k];
-      Kernel::Triangle_3 triangle(to_cgal(mesh.vertices[a]), to_cgal(mesh.vertices[b]),
-                                  to_cgal(mesh.vertices[c]));
+      Kernel::Triangle_3 triangle(to_point(mesh.vertices[a]), to_point(mesh.vertices[b]),
+                                  to_point(mesh.vertices[c]));
       if (triangle.is_degenerate()) continue;
       triangles_.push_back(triangle);
       numbers_.push_back(k);
@@ -61,12 +52,12 @@ class CgalRayCast final : public RayCast {
   RayHit any(const Ray& ray) const {
     RayHit hit;
     hit.status = Status::not_reported;
-    const Point from = to_cgal(ray.origin);
+    const Point from = to_point(ray.origin);
     if (std::isinf(ray.t_max)) {
-      hit.hit = tree_.do_intersect(Kernel::Ray_3(from, to_cgal(ray.origin + ray.direction)));
+      hit.hit = tree_.do_intersect(Kernel::Ray_3(from, to_point(ray.origin + ray.direction)));
     } else {
       const Vec3d end = ray.origin + ray.t_max * ray.direction;
-      hit.hit = tree_.do_intersect(Kernel::Segment_3(from, to_cgal(end)));
+      hit.hit = tree_.do_intersect(Kernel::Segment_3(from, to_point(end)));
     }
     return hit;
   }
@@ -75,7 +66,7 @@ class CgalRayCast final : public RayCast {
     RayHit hit;
     hit.status = Status::not_reported;
     const auto found = tree_.first_intersection(
-        Kernel::Ray_3(to_cgal(ray.origin), to_cgal(ray.origin + ray.direction)));
+        Kernel::Ray_3(to_point(ray.origin), to_point(ray.origin + ray.direction)));
     if (!found) return hit;
     double t = std::numeric_limits<double>::infinity();
     const auto take = [&](const Point& p) {

@@ -17,16 +17,16 @@
 namespace touchstone::campaign {
 namespace {
 
-constexpr double setup_seconds = 60;
+constexpr double broad_setup_seconds = 60;
 // An upper bound for a box or a pair: the frame's pairs are sorted and compared, its work is
 // counted.
 constexpr double seconds_to_verify = 5e-6;
 constexpr double longest_grace = 2;  // seconds that other processes may take the processor for
 // seconds of all frames; a slower pass counts no allocations
-constexpr double longest_to_count = 3;
+constexpr double longest_frame_to_count = 3;
 
 // The child's result of one frame.
-struct ChildAnswer {
+struct BroadAnswer {
   measure::SampleReply reply;
   grade::PairFaults faults;
   std::size_t pairs_at = 0;  // an index into the array of all pairs, if pairs are kept
@@ -138,7 +138,7 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
   }
   std::size_t room = 0;  // far more than needed: memory that is not written to costs nothing
   for (const measure::BlockFrame& frame : input.frames) room += 4 * frame.truth.size() + 4096;
-  process::SharedArray<ChildAnswer> answers(count);
+  process::SharedArray<BroadAnswer> answers(count);
   process::SharedArray<IndexPair> kept(with_pairs ? room : 0);
   process::SharedArray<std::size_t> too_slow(
       1);                    // 0: no frame is too slow, else the frame's number plus one
@@ -149,7 +149,7 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
   const double patience = group.time_limit + std::min(3 * group.time_limit, longest_grace) +
                           seconds_to_verify * static_cast<double>(greatest);
   const process::IsolationLimits limits = {.item_seconds = patience,
-                                           .setup_seconds = setup_seconds,
+                                           .setup_seconds = broad_setup_seconds,
                                            .failures = 1,
                                            .memory = group.memory_limit};
   const process::IsolationReport report =
@@ -160,7 +160,7 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
 
         return [&, executor, sampler](std::size_t frame) {
           if (too_slow[0] > 0) return;
-          ChildAnswer& answer = answers[frame];
+          BroadAnswer& answer = answers[frame];
           const double waited_before = measure::run_delay().value_or(0);
           answer.reply = sampler->play(frame);
           const double waited = measure::run_delay().value_or(0) - waited_before;
@@ -187,11 +187,11 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
 
   const bool to_the_end = report.failures.empty() && too_slow[0] == 0;
   double seconds = 0;
-  for (const ChildAnswer& answer : answers.span()) {
+  for (const BroadAnswer& answer : answers.span()) {
     seconds += frame_seconds(answer.reply);
   }
   std::vector<measure::BroadSampler::FrameAllocations> allocations(count);
-  if (to_the_end && seconds < longest_to_count) {
+  if (to_the_end && seconds < longest_frame_to_count) {
     allocations = count_allocations(input, entry, group.rebuild, limits);
   }
   for (std::size_t frame = 0; frame < count; ++frame) {
@@ -205,7 +205,7 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
             failure.words);
       break;
     }
-    const ChildAnswer& answer = answers[frame];
+    const BroadAnswer& answer = answers[frame];
     const bool build = group.rebuild || frame == 0;
     const record::Phase phase = build ? record::Phase::build : record::Phase::update;
     record::RawRow prepare = context.row(frame, entry, phase);

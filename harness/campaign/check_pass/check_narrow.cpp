@@ -19,12 +19,13 @@
 namespace touchstone::campaign {
 namespace {
 
-constexpr double setup_seconds = 60;
+constexpr double narrow_setup_seconds = 60;
 constexpr std::size_t outcomes_at_once = 250'000;  // a number that takes about 50 MB
-constexpr double longest_to_count = 10;  // seconds of a batch; a slower one counts no allocations
+constexpr double longest_batch_to_count =
+    10;  // seconds of a batch; a slower one counts no allocations
 
 // The child's sums over one piece; the outcomes themselves are in shared memory.
-struct ChildAnswer {
+struct NarrowAnswer {
   double seconds = 0;
   std::uint64_t outcome_hash = 0;
   std::int64_t contacts = 0, part_pairs = -1, iterations = -1, support_calls = -1;
@@ -106,11 +107,11 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
   const CampaignGroup& settings = *context_->block->group;
   process::SharedArray<Outcome> outcomes(batch.outcomes);
   process::SharedArray<grade::PartList> lists(batch.outcomes);
-  process::SharedArray<ChildAnswer> answers(pieces.size());
+  process::SharedArray<NarrowAnswer> answers(pieces.size());
   process::SharedArray<char> lost(
       sets_.size());  // 1 while the set is being solved; it stays if that kills the child
   const process::IsolationLimits limits = {.item_seconds = settings.time_limit,
-                                           .setup_seconds = setup_seconds,
+                                           .setup_seconds = narrow_setup_seconds,
                                            .memory = settings.memory_limit};
   const process::IsolationReport report =
       process::isolate(pieces.size(), limits, [&]() -> process::ItemWork {
@@ -133,9 +134,9 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
       });
 
   double seconds = 0;
-  for (const ChildAnswer& answer : answers.span()) seconds += answer.seconds;
+  for (const NarrowAnswer& answer : answers.span()) seconds += answer.seconds;
   std::vector<measure::Allocations> allocations(pieces.size());
-  if (report.failures.empty() && seconds < longest_to_count) {
+  if (report.failures.empty() && seconds < longest_batch_to_count) {
     allocations = count_allocations(pieces, choice, limits);
   }
   auto failure = report.failures.begin();
@@ -151,7 +152,7 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
       lose(piece, choice, reference, status_of(report.states[item]), failure->words);
       continue;
     }
-    const ChildAnswer& answer = answers[item];
+    const NarrowAnswer& answer = answers[item];
     record::RawRow result = row(piece, choice);
     result.seconds = answer.seconds;
     result.contact_count = answer.contacts;

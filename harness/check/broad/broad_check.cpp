@@ -22,7 +22,7 @@ constexpr std::size_t most_frames = 16;
 constexpr int threads = 2;
 
 // The findings of a child about one scene.
-struct Found {
+struct FoundInScene {
   Status status = Status::ok;
   std::size_t frames = 0;
   std::array<FrameFaults, most_frames> faults{};
@@ -124,11 +124,11 @@ class Asked {
   Status status_ = Status::ok;
 };
 
-Found play(const BroadPhaseEntry& entry, const BoxScene& scene) {
+FoundInScene play(const BroadPhaseEntry& entry, const BoxScene& scene) {
   Executor executor(threads);
   const std::unique_ptr<BroadPhase> algorithm = entry.make(executor);
   Asked asked(*algorithm);
-  Found found;
+  FoundInScene found;
   std::span<const Aabb> before;
   for (const std::vector<Aabb>& boxes : scene.frames) {
     const Change change(before, boxes);
@@ -185,7 +185,7 @@ std::vector<BroadCheck> check_broad_phases(std::span<const BroadPhaseEntry* cons
                                            std::span<const BoxScene> scenes, double time_limit) {
   std::vector<BroadCheck> checks;
   for (const BroadPhaseEntry* entry : entries) {
-    const auto played = process::isolated_answers<Found>(
+    const auto played = process::isolated_answers<FoundInScene>(
         scenes.size(), {.item_seconds = time_limit},
         [&] { return [&](std::size_t i) { return play(*entry, scenes[i]); }; });
     for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -195,7 +195,7 @@ std::vector<BroadCheck> check_broad_phases(std::span<const BroadPhaseEntry* cons
       for (const std::vector<Aabb>& boxes : scenes[i].frames) {
         check.pairs += static_cast<std::int64_t>(true_pairs(boxes).size());
       }
-      const Found& found = played.answers[i];
+      const FoundInScene& found = played.answers[i];
       check.status = found.status;
       const auto faults = std::span(found.faults).first(found.frames);
       check.frames.assign(faults.begin(), faults.end());

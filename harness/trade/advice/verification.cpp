@@ -10,7 +10,7 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr double truth_share = 0.3;  // share of the seconds, for all held-out scenes
+constexpr double held_out_share = 0.3;  // share of the seconds, for all held-out scenes
 // share of the seconds; a second race gets as much again or more
 constexpr double race_share = 0.3;
 constexpr std::size_t most_rivals = 6;   // the number in the race
@@ -25,7 +25,7 @@ class Verifier {
                    const std::filesystem::path& folder) {
     measure_grid(choice, folder);
     HeldOutScenes elsewhere(problem_.request, problem_.representing, first_draw, draws,
-                            truth_share * problem_.request.seconds / draws);
+                            held_out_share * problem_.request.seconds / draws);
     found_.held_out_on = elsewhere.name();
     found_.held_out = elsewhere.grade(choice, problem_.budget);
     found_.within_budget = within(found_.choice) && all_within(found_.held_out);

@@ -178,13 +178,13 @@ std::vector<Follower> followers() {
 
 class LongSequences : public testing::TestWithParam<Sequence> {};
 
-std::string test_name(const testing::TestParamInfo<Sequence>& param) {
+std::string sequence_name(const testing::TestParamInfo<Sequence>& param) {
   std::string name = param.param.name;
   std::ranges::replace(name, ' ', '_');
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, LongSequences, testing::ValuesIn(sequences), test_name);
+INSTANTIATE_TEST_SUITE_P(Bodies, LongSequences, testing::ValuesIn(sequences), sequence_name);
 
 TEST_P(LongSequences, AreFollowed) {
   const Sequence& sequence = GetParam();

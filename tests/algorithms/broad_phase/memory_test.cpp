@@ -47,9 +47,9 @@ namespace touchstone {
 namespace {
 
 // Bodies that all move, and of which some jump, go and come back.
-class Frames {
+class ComingAndGoing {
  public:
-  explicit Frames(std::size_t bodies)
+  explicit ComingAndGoing(std::size_t bodies)
       : side_(std::cbrt(1.0f / static_cast<float>(bodies))),
         boxes_(uniform_boxes(random_, bodies, side_)) {}
 
@@ -94,7 +94,7 @@ struct Memory {
 
 Memory memory_of(const BroadPhaseEntry& entry, std::size_t bodies) {
   Executor executor(1);
-  Frames frames(bodies);
+  ComingAndGoing frames(bodies);
   frames.next(0);  // reserves the lists
   const std::int64_t before = heap_bytes;
   const auto algorithm = entry.make(executor);

@@ -11,7 +11,7 @@ namespace {
 using namespace narrow_pairs;
 
 constexpr std::array<double, 5> libccd_gaps = {1, 0.1, 0.01, -0.01, -0.05};
-constexpr std::array<double, 2> overlaps = {-0.01, -0.05};
+constexpr std::array<double, 2> ccd_overlaps = {-0.01, -0.05};
 
 class LibccdTest : public testing::Test {
  protected:
@@ -122,7 +122,7 @@ TEST_F(LibccdTest, SaysWhenTheIterationsRanOut) {
     EXPECT_GT(not_converged, 100) << entry->info.name;
   }
   int capped = 0;
-  for_known_pairs(*epa_, Task::penetration, overlaps, 1, [&](const KnownPair& pair) {
+  for_known_pairs(*epa_, Task::penetration, ccd_overlaps, 1, [&](const KnownPair& pair) {
     const Ask how{.tolerance = 1e-9, .max_iterations = 10};
     const Outcome outcome = ask(*epa_, Task::penetration, pair.a, pair.b, how);
     if (outcome.answer == Answer::separated) ADD_FAILURE() << "a wrong answer for a short search";

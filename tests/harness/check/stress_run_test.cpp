@@ -77,22 +77,22 @@ TEST_F(StressRun, AnAlgorithmThatIsRight) {
               HasSubstr("none of our own algorithms is silently wrong, crashes or hangs"));
 }
 
-struct HarmCase {
+struct StressHarmCase {
   Harm harm;
   NarrowPhaseEntry (*entry)(const std::string&, Origin);
   grade::AnswerClass outcome;
   std::int64_t counted;  // queries of the four harmed slots in two values, over all tasks or some
   std::int64_t skipped;
 
-  friend void PrintTo(const HarmCase& harm, std::ostream* out) {
+  friend void PrintTo(const StressHarmCase& harm, std::ostream* out) {
     *out << to_string(harm.outcome) << static_cast<int>(harm.harm);
   }
 };
 
-class StressHarm : public StressRun, public ::testing::WithParamInterface<HarmCase> {};
+class StressHarm : public StressRun, public ::testing::WithParamInterface<StressHarmCase> {};
 
 TEST_P(StressHarm, IsToldApart) {
-  const HarmCase& harm = GetParam();
+  const StressHarmCase& harm = GetParam();
   for (const Origin origin : {Origin::ours, Origin::peer}) {
     const NarrowPhaseEntry entry = harm.entry("bad", origin);
     const check::StressRequest request = request_for({&entry});
@@ -127,14 +127,18 @@ TEST_P(StressHarm, IsToldApart) {
 INSTANTIATE_TEST_SUITE_P(
     Harms, StressHarm,
     ::testing::Values(
-        HarmCase{Harm::wrong_side, planted<Harm::wrong_side>, grade::AnswerClass::silent, 24, 0},
-        HarmCase{Harm::wrong_depth, planted<Harm::wrong_depth>, grade::AnswerClass::silent, 8, 0},
-        HarmCase{Harm::bad_bounds, planted<Harm::bad_bounds>, grade::AnswerClass::silent, 24, 0},
-        HarmCase{Harm::nan, planted<Harm::nan>, grade::AnswerClass::silent, 8, 0},
-        HarmCase{Harm::gives_up, planted<Harm::gives_up>, grade::AnswerClass::honest, 24, 0},
+        StressHarmCase{Harm::wrong_side, planted<Harm::wrong_side>, grade::AnswerClass::silent, 24,
+                       0},
+        StressHarmCase{Harm::wrong_depth, planted<Harm::wrong_depth>, grade::AnswerClass::silent, 8,
+                       0},
+        StressHarmCase{Harm::bad_bounds, planted<Harm::bad_bounds>, grade::AnswerClass::silent, 24,
+                       0},
+        StressHarmCase{Harm::nan, planted<Harm::nan>, grade::AnswerClass::silent, 8, 0},
+        StressHarmCase{Harm::gives_up, planted<Harm::gives_up>, grade::AnswerClass::honest, 24, 0},
         // After three crashes in a task and value the rest is skipped: slots 0, 1 and 4 crash,
         // those from 5 on are not asked.
-        HarmCase{Harm::crashes, planted<Harm::crashes>, grade::AnswerClass::crashed, 18, 18}));
+        StressHarmCase{Harm::crashes, planted<Harm::crashes>, grade::AnswerClass::crashed, 18,
+                       18}));
 
 TEST_F(StressRun, AHangThatIsBusyOrAsleepEndsAtItsLimit) {
   for (const NarrowPhaseEntry& entry :

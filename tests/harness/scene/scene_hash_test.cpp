@@ -10,7 +10,7 @@
 namespace touchstone {
 namespace {
 
-scene::Scene example() {
+scene::Scene hashed_example() {
   scene::Scene scene;
   scene.frames = 5;
   for (const ShapeKind kind : all_shape_kinds) {
@@ -38,12 +38,14 @@ scene::Scene example() {
 void nudge(double& x) { x = std::nextafter(x, 10); }
 
 TEST(SceneHash, IsSixteenDigitsAndTheSameForTheSame) {
-  EXPECT_EQ(scene::scene_hash(example()).size(), 16u);
-  EXPECT_EQ(scene::scene_hash(example()).find_first_not_of("0123456789abcdef"), std::string::npos);
-  EXPECT_EQ(scene::scene_hash(example()), scene::scene_hash(example()));
-  scene::Scene renamed = example();
+  EXPECT_EQ(scene::scene_hash(hashed_example()).size(), 16u);
+  EXPECT_EQ(scene::scene_hash(hashed_example()).find_first_not_of("0123456789abcdef"),
+            std::string::npos);
+  EXPECT_EQ(scene::scene_hash(hashed_example()), scene::scene_hash(hashed_example()));
+  scene::Scene renamed = hashed_example();
   renamed.name = "other";
-  EXPECT_EQ(scene::scene_hash(renamed), scene::scene_hash(example())) << "a name decides nothing";
+  EXPECT_EQ(scene::scene_hash(renamed), scene::scene_hash(hashed_example()))
+      << "a name decides nothing";
 }
 
 TEST(SceneHash, AnyParameterChangesIt) {
@@ -81,9 +83,9 @@ TEST(SceneHash, AnyParameterChangesIt) {
       [](scene::Scene& s) { nudge(s.motion.wall_min.x()); },
       [](scene::Scene& s) { nudge(s.motion.wall_max.z()); },
   };
-  std::set<std::string> hashes = {scene::scene_hash(example())};
+  std::set<std::string> hashes = {scene::scene_hash(hashed_example())};
   for (const auto& change : changes) {
-    scene::Scene scene = example();
+    scene::Scene scene = hashed_example();
     change(scene);
     hashes.insert(scene::scene_hash(scene));
   }

@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 
 struct Small : SmallRequest {
-  explicit Small(const std::string& scene_text) : SmallRequest(scene_text, 0.5) {}
+  explicit Small(const std::string& text) : SmallRequest(text, 0.5) {}
   trade::Configuration named(const std::string& narrow) const {
     trade::Configuration configuration;
     configuration.broad = find_broad_phase("sweep-and-prune");
@@ -76,26 +76,26 @@ TEST(Verification, TimesAreJudgedByTheWholeInterval) {
 // Number k is an equal scene each time, which differs from the scene itself and from all other
 // numbers.
 TEST(Verification, HeldOutScenesAreDrawnByTheirNumber) {
-  const std::string listed =
+  const std::string with_poses =
       "frames = 3\n"
       "[[body]]\nshape = {type = \"box\", half_extents = [1, 1, 1]}\ntranslation = [0, 0, 0]\n"
       "moving = false\n"
       "[[body]]\nshape = {type = \"sphere\", radius = 1}\ntranslation = [2.03, 0, 0]\n"
       "velocity = [-1, 0, 0]\n";
-  for (const std::string& text : {moving, moving + "seed = 7\n", listed}) {
+  for (const std::string& text : {moving, moving + "seed = 7\n", with_poses}) {
     Small small(text);
     const trade::HeldOutScenes first(small.request, small.representing, 1, 3, 100);
-    EXPECT_THAT(first.name(), HasSubstr(text == listed   ? "starts 1 to 3"
-                                        : text == moving ? "seeds 2 to 4"
-                                                         : "seeds 8 to 10"));
+    EXPECT_THAT(first.name(), HasSubstr(text == with_poses ? "starts 1 to 3"
+                                        : text == moving   ? "seeds 2 to 4"
+                                                           : "seeds 8 to 10"));
     std::set<std::string> hashes = {scene::scene_hash(scene::load_scene(small.request.scene))};
     for (std::size_t i = 0; i < 3; ++i) hashes.insert(scene::scene_hash(first.scene(i)));
     EXPECT_EQ(hashes.size(), 4u);
     const trade::HeldOutScenes again(small.request, small.representing, 3, 1, 100);
     EXPECT_EQ(scene::scene_hash(again.scene(0)), scene::scene_hash(first.scene(2)));
   }
-  Small still("[[body]]\nshape = {type = \"sphere\", radius = 1}\ntranslation = [0, 0, 0]\n");
-  EXPECT_TRUE(trade::HeldOutScenes(still.request, still.representing, 1, 2, 100).empty());
+  Small unmoved("[[body]]\nshape = {type = \"sphere\", radius = 1}\ntranslation = [0, 0, 0]\n");
+  EXPECT_TRUE(trade::HeldOutScenes(unmoved.request, unmoved.representing, 1, 2, 100).empty());
 }
 
 TEST(Verification, ARowSaysWhatCameOut) {
