@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -32,9 +33,12 @@ struct ConcaveSettings {
   std::function<std::unique_ptr<MidPhase>()> mid_phase = {};
   // What answers for pairs of convex parts, and of a convex part and a triangle; never null.
   std::function<std::unique_ptr<NarrowPhase>()> narrow_phase = {};
+  // By how much of the pair's size (its bodies and the way between them) the bounds of a distance may be apart that
+  // `narrow_phase` finds to a coarser tolerance than its usual one.
+  std::optional<double> tolerance = {};
   // For `measure`, of a mesh and a convex part: a normal along which neighbours of the triangle are in the
-  // way is no way out of the mesh, as at an edge inside of a flat surface. The contact gets the normal of
-  // its face, on the side of the part's origin, and the depth along it. Without it each triangle has the
+  // way is no way out of the mesh, as at an edge inside of a flat surface. The contact gets the nearest normal of a
+  // face around its point, on the side of the part's origin, and the depth along it. Without it each triangle has the
   // contact that it would have alone.
   bool welds = false;
 };

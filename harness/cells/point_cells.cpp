@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "harness/cells/choices.h"
 #include "harness/cells/kinds.h"
 #include "harness/cells/mesh_inputs.h"
+#include "harness/geometry/shapes/compound.h"
 
 namespace touchstone::cells {
 namespace {
@@ -24,19 +24,6 @@ constexpr std::array<std::string_view, 2> point_place_names = {"volume", "near"}
 constexpr std::array<std::string_view, 2> point_task_names = {"closest", "side"};
 // A distance is wrong if it is off by more, in parts of the mesh's size. Libraries may calculate in floats.
 constexpr double greatest_error_of_ours = 1e-14, greatest_error_of_peers = 1e-5;
-
-// True if each edge goes one way as often as the other.
-bool is_closed_surface(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> open;
-  for (const auto& triangle : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
-      int& count = open[std::minmax(a, b)];
-      count += a < b ? 1 : -1;
-    }
-  }
-  return std::ranges::all_of(open, [](const auto& edge) { return edge.second == 0; });
-}
 
 // In the mesh's box made larger by a half, or within a hundredth of its size of a triangle. All numbers are
 // floats, so that libraries of floats are asked the same.
@@ -151,7 +138,7 @@ std::vector<PlannedCell> point_cells(files::TomlTable& table, const std::filesys
   std::vector<PlannedCell> cells;
   for (const auto& mesh :
        mesh_inputs(table, home, {"torus-2000", "trefoil-10000", "ellipsoid-25000"})) {
-    if (asks_side && !is_closed_surface(mesh->mesh)) {
+    if (asks_side && geometry::open_edge(mesh->mesh.vertices, mesh->mesh.triangles)) {
       table.fail("meshes", mesh->title + " are open; expected a closed surface for the task side");
     }
     const auto maker = std::make_shared<PointCells>(mesh, entries, count, seed);

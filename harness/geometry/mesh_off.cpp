@@ -59,6 +59,10 @@ Mesh read_off(const std::string& file, std::string_view text) {
     }
     add_fan(mesh, polygon);
   }
+  if (cursor.next_filled_line()) {
+    cursor.fail("more lines than the counts say; expected the file to end after " +
+                std::to_string(faces) + " faces");
+  }
   return mesh;
 }
 

@@ -2,6 +2,7 @@
 // Elements other than vertex and face, and properties other than x, y, z and the list of vertex
 // indices, are ignored.
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -125,6 +126,19 @@ class Body {
     }
     return 0;
   }
+  // Passes a number that nobody needs, which may be infinite or NaN.
+  void skip(Type type) {
+    if (encoding_ != Encoding::text) {
+      next(type);
+      return;
+    }
+    const std::string_view token = cursor_.token_across_lines("another number");
+    double value = 0;
+    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+    if (error == std::errc::invalid_argument || end != token.data() + token.size()) {
+      cursor_.fail("expected a number");
+    }
+  }
   // The next number as a count or an index: a whole number >= 0.
   std::int64_t next_whole(Type type) {
     const double value = next(type);
@@ -168,8 +182,11 @@ void read_vertices(Body& body, const Element& element, Mesh& mesh) {
     for (const Property& p : element.properties) {
       const std::int64_t count = p.count_type ? body.next_whole(*p.count_type) : 1;
       for (std::int64_t k = 0; k < count; ++k) {
+        if (p.count_type || p.name.size() != 1 || p.name[0] < 'x' || p.name[0] > 'z') {
+          body.skip(p.type);
+          continue;
+        }
         const double value = body.next(p.type);
-        if (p.count_type || p.name.size() != 1 || p.name[0] < 'x' || p.name[0] > 'z') continue;
         if (!std::isfinite(value)) body.fail("expected finite coordinates");
         v[p.name[0] - 'x'] = value;
       }
@@ -192,7 +209,7 @@ void read_others(Body& body, const Element& element, Mesh& mesh) {
         if (is_polygon) {
           polygon.push_back(static_cast<std::uint32_t>(body.next_whole(p.type)));
         } else {
-          body.next(p.type);
+          body.skip(p.type);
         }
       }
       add_fan(mesh, polygon);

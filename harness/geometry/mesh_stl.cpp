@@ -77,26 +77,38 @@ Mesh read_text(const std::string& file, std::string_view text) {
   Welder weld;
   TextCursor cursor(file, text);
   std::vector<std::uint32_t> loop;
-  bool open = false;  // between solid and endsolid
+  bool open = false;      // between solid and endsolid
+  bool in_loop = false;   // between outer and endloop
+  bool has_loop = false;  // of the facet
   while (cursor.next_line()) {
     const std::string keyword = lower(cursor.token());
     if (keyword.empty()) continue;
+    if (in_loop && keyword != "vertex" && keyword != "endloop") {
+      cursor.fail("expected vertex or endloop");
+    }
     if (keyword == "solid") {
       open = true;
     } else if (keyword == "endsolid") {
       open = false;
     } else if (!open) {
       cursor.fail("expected 'solid'");
+    } else if (keyword == "facet") {
+      has_loop = false;
     } else if (keyword == "outer") {
+      in_loop = has_loop = true;
       loop.clear();
     } else if (keyword == "vertex") {
+      if (!in_loop) cursor.fail("expected 'outer loop' before vertices");
       loop.push_back(weld(cursor.point()));
     } else if (keyword == "endloop") {
       if (loop.size() != 3) cursor.fail("expected a loop of three vertices");
       add_fan(weld.mesh, loop);
+      in_loop = false;
       loop.clear();
-    } else if (keyword != "facet" && keyword != "endfacet") {
+    } else if (keyword != "endfacet") {
       cursor.fail("expected facet, outer loop, vertex, endloop, endfacet or endsolid");
+    } else if (!has_loop) {
+      cursor.fail("expected an outer loop in the facet");
     }
   }
   if (open) cursor.fail("the file ends early; expected 'endsolid'");

@@ -229,7 +229,12 @@ void PartDistance::measure(const PlacedConcave& a, const PlacedConcave& b,
                std::uint32_t leaf) { return static_cast<Search*>(context)->measure(of_b, leaf); }
           : WideNearest::Measure{nullptr},
       &search);
-  if (!(search.upper < none_yet)) return;
+  if (!(search.upper < none_yet)) {
+    // Squares are beyond the range of doubles, unless a body has no parts.
+    const bool both = first.given->part_count() > 0 && second.given->part_count() > 0;
+    if (both) outcome.status = Status::not_converged;
+    return;
+  }
   outcome.upper = search.upper;
   outcome.lower = std::clamp(search.lower, 0.0, search.upper);
   outcome.witness_a = search.on_a;
@@ -237,8 +242,16 @@ void PartDistance::measure(const PlacedConcave& a, const PlacedConcave& b,
   const Vec3d way = search.on_b - search.on_a;
   outcome.distance = std::clamp(way.norm(), outcome.lower, outcome.upper);
   outcome.normal = way.normalized();
+  // The squares of shorter distances have lost digits.
+  constexpr double shortest = 0x1p-480;
+  if (!(outcome.upper > shortest)) {
+    outcome.lower = 0;
+    outcome.upper = shortest;
+  }
   const double width = outcome.upper - outcome.lower;
-  if (!(width <= std::max(1e-9 * outcome.distance, 1e-12 * far))) {
+  // The unit of a narrow phase is at most that.
+  const double allowed = 4 * tolerance_ * (first.reach + second.reach + outcome.distance);
+  if (!(width <= std::max({1e-9 * outcome.distance, 1e-12 * far, allowed}))) {
     outcome.status = Status::not_converged;
   }
 }

@@ -14,6 +14,9 @@ namespace touchstone {
 
 class PartDistance {
  public:
+  // `tolerance` is that of ConcaveSettings.
+  explicit PartDistance(std::optional<double> tolerance) : tolerance_(tolerance.value_or(0)) {}
+
   // The bodies and trees stay alive and unchanged. Trees of bodies that are not among these are built
   // with the first query.
   void bind(std::span<const BoundBody> bodies, const MeshTrees& given);
@@ -22,14 +25,16 @@ class PartDistance {
   void refit(std::uint32_t body);
 
   // Writes the distance, its bounds, the points and the normal. `lower` and `upper` are certified:
-  // they cover all rounding; between convex parts they are those of the narrow phase. Where they are further apart than 1e-9 of the distance and 1e-12 of the
-  // bodies' coordinates the status is not_converged. Nothing is written if a body has no parts.
+  // they cover all rounding; between convex parts they are those of the narrow phase. Where they are further apart
+  // than 1e-9 of the distance, 1e-12 of the bodies' coordinates and the tolerance the status is not_converged. Nothing
+  // is written if a body has no parts.
   void measure(const PlacedConcave& a, const PlacedConcave& b, ConvexPairs& convex_pairs,
                Outcome& outcome);
 
  private:
   const MeshTree& tree_of(std::uint32_t body);
 
+  double tolerance_;
   std::span<const BoundBody> bodies_;
   const MeshTrees* given_ = nullptr;
   MeshTrees trees_;

@@ -48,7 +48,8 @@ class PartPairs final : public ConcavePhase {
   PartPairs(const ConcaveSettings& settings, RoughTest test, Status answered)
       : answered_(answered),
         trees_(std::make_shared<MeshTrees>()),
-        convex_pairs_(settings.narrow_phase) {
+        convex_pairs_(settings.narrow_phase),
+        distances_(settings.tolerance) {
     if (settings.welds) welding_.emplace();
     if (test == nullptr) {
       mesh_pairs_ = fused_pairs(trees_);

@@ -1,6 +1,6 @@
-// Steps: 1. Give equal vertices one number, and list all edges with the corners opposite to them.
+// Steps: 1. Give equal vertices one number, and list the triangles at each.
 //        2. To ask about a point, tell by its weights whether it is in a triangle's face, on an edge or at a
-//           vertex, and look at the corners of the triangles that share that.
+//           vertex, and look at the triangles that share that.
 #include "algorithms/kernels/triangles/mesh_neighbours.h"
 
 #include <algorithm>
@@ -41,19 +41,39 @@ MeshNeighbours::MeshNeighbours(const TriangleMesh& mesh)
     const bool is_same = k > 0 && coordinates(order[k]) == coordinates(order[k - 1]);
     place_of_[order[k]] = is_same ? place_of_[order[k - 1]] : order[k];
   }
-  for (const auto& triangle : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t p = place_of_[triangle[k]], q = place_of_[triangle[(k + 1) % 3]];
-      if (p == q) continue;
-      edges_.push_back({std::min(p, q), std::max(p, q), place_of_[triangle[(k + 2) % 3]]});
-      beside_.emplace_back(p, q);
-      beside_.emplace_back(q, p);
-    }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t place : places_of(t)) at_.emplace_back(place, t);
   }
-  std::ranges::sort(edges_, {}, [](const Edge& e) { return std::tuple(e.low, e.high, e.apex); });
-  std::ranges::sort(beside_);
-  const auto repeated = std::ranges::unique(beside_);
-  beside_.erase(repeated.begin(), repeated.end());
+  std::ranges::sort(at_);
+  const auto repeated = std::ranges::unique(at_);
+  at_.erase(repeated.begin(), repeated.end());
+}
+
+MeshNeighbours::Places MeshNeighbours::places_of(std::uint32_t triangle) const {
+  Places places;
+  for (std::size_t k = 0; k < 3; ++k) places[k] = place_of_[mesh_.triangles[triangle][k]];
+  return places;
+}
+
+template <class Visit>
+bool MeshNeighbours::all_around(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
+                                const Visit& visit) const {
+  const Places places = places_of(triangle);
+  std::array<Vec3d, 3> corner;
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = pose(mesh_.vertices[places[k]]);
+  const Vec3d weights = weights_of(corner, point);
+  Places feature;
+  std::size_t corners = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(weights[static_cast<int>(k)] <= least_weight)) feature[corners++] = places[k];
+  }
+  if (corners == 0 || corners == 3) return visit(triangle);
+  for (const auto& [place, other] : std::ranges::equal_range(
+           at_, feature[0], {}, &std::pair<std::uint32_t, std::uint32_t>::first)) {
+    const bool shares = corners == 1 || std::ranges::count(places_of(other), feature[1]) > 0;
+    if (shares && !visit(other)) return false;
+  }
+  return true;
 }
 
 bool MeshNeighbours::supports(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
@@ -62,31 +82,33 @@ bool MeshNeighbours::supports(std::uint32_t triangle, const Pose& pose, const Ve
     const Vec3d way = pose(mesh_.vertices[place]) - point;
     return !(normal.dot(way) > slack * way.norm());
   };
-  std::array<std::uint32_t, 3> place;
-  std::array<Vec3d, 3> corner;
-  for (std::size_t k = 0; k < 3; ++k) {
-    place[k] = place_of_[mesh_.triangles[triangle][k]];
-    corner[k] = pose(mesh_.vertices[place[k]]);
-  }
-  if (!std::ranges::all_of(place, is_behind)) return false;
-  const Vec3d weights = weights_of(corner, point);
-  std::array<std::uint32_t, 3> feature;
-  std::size_t corners = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!(weights[static_cast<int>(k)] <= least_weight)) feature[corners++] = place[k];
-  }
-  if (corners == 1) {
-    const auto around = std::ranges::equal_range(beside_, feature[0], {},
-                                                 &std::pair<std::uint32_t, std::uint32_t>::first);
-    return std::ranges::all_of(around, [&](const auto& pair) { return is_behind(pair.second); });
-  }
-  if (corners == 2) {
-    const auto [low, high] = std::minmax(feature[0], feature[1]);
-    const auto ends = [](const Edge& e) { return std::pair(e.low, e.high); };
-    const auto apexes = std::ranges::equal_range(edges_, std::pair(low, high), {}, ends);
-    return std::ranges::all_of(apexes, [&](const Edge& e) { return is_behind(e.apex); });
-  }
-  return true;
+  const auto is_whole_behind = [&](std::uint32_t other) {
+    return std::ranges::all_of(places_of(other), is_behind);
+  };
+  return is_whole_behind(triangle) && all_around(triangle, pose, point, is_whole_behind);
+}
+
+MeshNeighbours::Face MeshNeighbours::nearest_face(std::uint32_t triangle, const Pose& pose,
+                                                  const Vec3d& point, const Vec3d& normal,
+                                                  const Vec3d& from) const {
+  Face best{Vec3d::Zero(), Vec3d::Zero()};
+  double nearest = -2;
+  all_around(triangle, pose, point, [&](std::uint32_t other) {
+    const Places places = places_of(other);
+    const Vec3d corner = pose(mesh_.vertices[places[0]]);
+    const Vec3d across =
+        (pose(mesh_.vertices[places[1]]) - corner).cross(pose(mesh_.vertices[places[2]]) - corner);
+    const double area = across.norm();
+    if (!(area > 0)) return true;
+    const Vec3d up = across / (across.dot(from - corner) >= 0 ? area : -area);
+    const double cosine = up.dot(normal);
+    if (cosine > nearest) {
+      nearest = cosine;
+      best = {up, corner};
+    }
+    return true;
+  });
+  return best;
 }
 
 }  // namespace touchstone

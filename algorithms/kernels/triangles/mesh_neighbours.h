@@ -4,6 +4,7 @@
 //        Collision Detection", 2005, sec. 5.1.5 (the Voronoi regions of a triangle's features).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -26,16 +27,27 @@ class MeshNeighbours {
   bool supports(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
                 const Vec3d& normal) const;
 
- private:
-  struct Edge {
-    std::uint32_t low, high;  // places, low < high
-    std::uint32_t apex;       // the place of a triangle's third corner
+  // The plane of a triangle around the point, as above: of those with an area, seen from the side on which `from`
+  // (world) is, the one whose normal is nearest to the given one. The normal is zero if none has an area.
+  struct Face {
+    Vec3d normal;  // unit vector in the world
+    Vec3d corner;  // a point of the plane in the world
   };
+  Face nearest_face(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
+                    const Vec3d& normal, const Vec3d& from) const;
+
+ private:
+  using Places = std::array<std::uint32_t, 3>;
+  Places places_of(std::uint32_t triangle) const;
+  // Calls visit(t) for the triangles that share the feature of this one on which the point is, as long as it
+  // returns true. Returns whether it always did.
+  template <class Visit>
+  bool all_around(std::uint32_t triangle, const Pose& pose, const Vec3d& point,
+                  const Visit& visit) const;
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> place_of_;  // of each vertex: one of equal ones
-  std::vector<Edge> edges_;              // ascending
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> beside_;  // places with an edge; ascending
+  std::vector<std::uint32_t> place_of_;                      // of each vertex: one of equal ones
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> at_;  // places with a triangle; ascending
 };
 
 }  // namespace touchstone

@@ -6,7 +6,7 @@
 //          2. `side`: cast a ray whose direction is drawn at those that it may meet, and count the triangles
 //             that it leaves through less those that it enters through. If it meets an edge, draw another.
 // Departs: it shares no code with the algorithms that it judges.
-// Fails:   never; the distance is rounded. The closest point itself is not given.
+// Fails:   never; the distance and the point are rounded.
 // Cost:    O(log n) a point where triangles are small, and some microseconds for each that is asked.
 #include <algorithm>
 #include <cmath>
@@ -26,10 +26,15 @@ using oracle::dot;
 using oracle::Integer;
 using oracle::is_zero;
 using oracle::operator-;
+using oracle::operator+;
+using oracle::operator*;
 using oracle::IntegerVector;
 
-struct Square {
+// The point of a triangle that is nearest to the origin: at / scale, and its squared distance.
+struct Nearest {
   Integer top, bottom;
+  IntegerVector at;
+  Integer scale;
 };
 
 int least_exponent(const Vec3d& v) {
@@ -45,28 +50,41 @@ IntegerVector placed(const Vec3d& v, int exponent) {
 
 using Seen = std::array<IntegerVector, 3>;  // the vertices from the point
 
-// The least squared distance of the origin from the triangle.
-Square distance_to(const Seen& seen) {
-  std::optional<Square> best;
-  const auto take = [&](Integer top, Integer bottom) {
-    if (!best || top * best->bottom < best->top * bottom) {
-      best = Square{std::move(top), std::move(bottom)};
-    }
+Nearest nearest_of(const Seen& seen) {
+  std::optional<Nearest> best;
+  const auto is_nearer = [&](const Integer& top, const Integer& bottom) {
+    return !best || top * best->bottom < best->top * bottom;
   };
   const IntegerVector normal = cross(seen[1] - seen[0], seen[2] - seen[0]);
   bool is_over = !is_zero(normal);
   for (std::size_t k = 0; k < 3; ++k) {
     const IntegerVector &a = seen[k], &b = seen[(k + 1) % 3];
-    take(dot(a, a), 1);
+    const Integer square = dot(a, a);
+    if (is_nearer(square, 1)) best = Nearest{square, 1, a, 1};
     const IntegerVector edge = b - a, volume = cross(a, b);
-    if (dot(a, edge) < 0 && dot(b, edge) > 0) take(dot(volume, volume), dot(edge, edge));
+    const Integer along = -dot(a, edge);
+    if (along > 0 && dot(b, edge) > 0) {
+      const Integer top = dot(volume, volume), length = dot(edge, edge);
+      if (is_nearer(top, length)) best = Nearest{top, length, length * a + along * edge, length};
+    }
     is_over = is_over && dot(normal, volume) >= 0;
   }
   if (is_over) {
-    const Integer height = dot(normal, seen[0]);
-    take(height * height, dot(normal, normal));
+    const Integer height = dot(normal, seen[0]), area = dot(normal, normal);
+    if (is_nearer(height * height, area)) {
+      best = Nearest{height * height, area, height * normal, area};
+    }
   }
   return *best;
+}
+
+// The root of top / bottom, whose square may be beyond doubles, times a power of two.
+double root_of(const Integer& top, const Integer& bottom, int exponent) {
+  if (top.is_zero()) return 0;
+  const int half = (static_cast<int>(msb(bottom)) - static_cast<int>(msb(top))) / 2;
+  const double square = half >= 0 ? oracle::quotient(top << (2 * half), bottom)
+                                  : oracle::quotient(top, bottom << (-2 * half));
+  return std::ldexp(std::sqrt(square), exponent - half);
 }
 
 // True if the origin is in the closed triangle.
@@ -77,7 +95,7 @@ bool has_origin(const Seen& seen) {
     };
     if (all(1) || all(-1)) return false;
   }
-  return distance_to(seen).top.is_zero();
+  return nearest_of(seen).top.is_zero();
 }
 
 // +1 or -1 if the ray from the origin leaves or enters through the triangle, 0 if it passes by, and
@@ -135,15 +153,25 @@ class ExactPointQuery final : public PointQuery {
   void find_closest(const Vec3d& point, PointAnswer& answer) {
     const IntegerVector from = placed(point, exponent_);
     tree_.may_be_nearest(point, asked_);
-    std::optional<Square> best;
+    std::optional<Nearest> best;
     for (const std::uint32_t triangle : asked_) {
-      Square square = distance_to(seen(triangle, from));
-      if (best && square.top * best->bottom >= best->top * square.bottom) continue;
-      best = std::move(square);
+      Nearest nearest = nearest_of(seen(triangle, from));
+      if (best && nearest.top * best->bottom >= best->top * nearest.bottom) continue;
+      best = std::move(nearest);
       answer.triangle = triangle;
     }
     if (!best) return;
-    answer.distance = std::ldexp(std::sqrt(oracle::quotient(best->top, best->bottom)), exponent_);
+    answer.distance = root_of(best->top, best->bottom, exponent_);
+    for (std::size_t k = 0; k < 3; ++k) {
+      answer.closest[static_cast<Eigen::Index>(k)] =
+          coordinate(best->scale * from[k] + best->at[k], best->scale);
+    }
+  }
+
+  // top / bottom on the grid, in metres.
+  double coordinate(const Integer& top, const Integer& bottom) const {
+    return exponent_ >= 0 ? oracle::quotient(top << exponent_, bottom)
+                          : oracle::quotient(top, bottom << -exponent_);
   }
 
   PointSide side(const Vec3d& point) {

@@ -103,7 +103,7 @@ template <fcl::CCDSolverType solver>
 std::unique_ptr<Cast> make_fcl_cast(const CastSettings& settings) {
   return std::make_unique<FclCast>(solver, settings);
 }
-constexpr auto make_advancement_cast = make_fcl_cast<fcl::CCDC_CONSERVATIVE_ADVANCEMENT>;
+constexpr auto make_advancement = make_fcl_cast<fcl::CCDC_CONSERVATIVE_ADVANCEMENT>;
 constexpr auto make_naive_cast = make_fcl_cast<fcl::CCDC_NAIVE>;
 
 }  // namespace
@@ -131,7 +131,7 @@ std::vector<CastEntry> peers_fcl_casts() {
        .scalars = {Precision::float64},
        .rotation = true,
        .supports = supports,
-       .make = make_advancement_cast},
+       .make = make_advancement},
       {.info = {.name = "fcl-naive",
                 .citation = "FCL 0.7, continuousCollide, CCDC_NAIVE, with InterpMotion",
                 .origin = Origin::peer,

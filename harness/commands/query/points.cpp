@@ -18,6 +18,7 @@
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
 #include "harness/geometry/mesh.h"
+#include "harness/geometry/shapes/compound.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::commands {
@@ -100,11 +101,23 @@ void print_points_summary(const std::vector<PointAnswers>& all) {
   }
 }
 
+// An open surface has no sides.
+void check_closed(const std::string& file, const TriangleMesh& mesh) {
+  const auto edge = geometry::open_edge(mesh.vertices, mesh.triangles);
+  if (!edge) return;
+  const auto& [from, to] = *edge;
+  throw base::InputError(
+      fmt::format("{}: the surface is open at the edge from [{}, {}, {}] to [{}, {}, {}]; --task "
+                  "side expects each edge as often in one direction as in the other",
+                  file, from[0], from[1], from[2], to[0], to[1], to[2]));
+}
+
 void ask_points(const PointsOptions& options) {
   const auto entries =
       campaign::select(point_queries(), campaign::split_names(options.query), "point query");
   geometry::Mesh read = geometry::read_surface(options.mesh);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
+  if (options.task == PointTask::side) check_closed(options.mesh, mesh);
   const std::vector<Vec3d> points = read_points(options.points);
   files::check_outputs({{"MESH", options.mesh}, {"--points", options.points}},
                        {{"--out", options.out}});
@@ -133,7 +146,7 @@ void add_points(Arguments command) {
       .show_default();
   command
       .one_of("--task", options->task, tasks,
-              "The closest point, or the side of the surface, which is closed")
+              "The closest point, or the side of the surface, which has to be closed")
       .show_default("closest");
   add_time_limit(command, options->time_limit, "Seconds that a point may take").show_default();
   command.text("--out", options->out, "The CSV file to write").required();

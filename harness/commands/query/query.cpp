@@ -235,7 +235,7 @@ void add_query(Arguments command) {
   command
       .number("--max-iterations", settings.max_iterations,
               "Greatest number of iterations of each loop of a query; in concave phases, of a pair "
-              "of convex parts")
+              "of convex parts, by --parts other than certified, which has none")
       .positive();
   add_time_limit(command, options->time_limit).show_default();
   command.text("--out", options->out, "The CSV file to write").required();
@@ -246,7 +246,7 @@ void add_query(Arguments command) {
   command.flag(
       "--welded", options->welded,
       "With --contacts: where neighbours of a triangle are in the way of a normal, the contact "
-      "has the face's");
+      "has that of the nearest face around it, on the side of the other body's origin");
   const Option mid =
       command.text("--mid", options->mid, "Concave phases: the mid-phase that finds pairs of parts")
           .show_default();

@@ -49,6 +49,7 @@ class ConcaveQueryRun {
     settings_ = {.scalar = query.scalar,
                  .mid_phase = mid->make,
                  .narrow_phase = [parts, &query] { return parts->make(query.settings); },
+                 .tolerance = query.settings.tolerance,
                  .welds = query.welds};
   }
 

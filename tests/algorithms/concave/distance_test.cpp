@@ -8,6 +8,7 @@
 #include "tests/algorithms/concave/meshes.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
+#include "tests/algorithms/shapes.h"
 
 namespace touchstone {
 namespace {
@@ -158,6 +159,44 @@ TEST(ConcaveDistance, OfStretchedAndHugeBodies) {
     const ConcaveBody box = body_of(reference::box_mesh(size, size, size));
     EXPECT_TRUE(measures({box, box}, {}, moved_by({5 * size, size, 4 * size}), 1e-13 * size));
   }
+}
+
+// Whose squares doubles do not hold: what is not known is not said to be.
+TEST(ConcaveDistance, BeyondTheRangeOfSquares) {
+  for (const double size : {1e-156, 1e-170, 1e160, 1e200}) {
+    SCOPED_TRACE(size);
+    const ConcaveBody box = body_of(reference::box_mesh(size, size, size));
+    for (const char* name : {"fused", "part-pairs"}) {
+      const Outcome found =
+          ask(name, ConcaveTask::distance, {box, box}, {}, moved_by({3 * size, 0, 0})).outcome;
+      EXPECT_EQ(found.answer, Answer::separated);
+      EXPECT_NE(found.status, Status::ok);
+      if (!std::isnan(found.upper)) {
+        EXPECT_LE(found.lower, size);
+        EXPECT_GE(found.upper, size * (1 - 1e-9));
+      }
+    }
+  }
+}
+
+// A coarse narrow phase is enough for a coarse tolerance, and for no finer one.
+TEST(ConcaveDistance, WithinATolerance) {
+  const std::array<ConcaveBody, 2> bodies = {body_of(reference::make_ellipsoid(1, 2, 3)),
+                                             body_of(reference::make_cylinder(0.5, 1))};
+  ConcaveSettings settings = reference::concave_settings();
+  settings.narrow_phase = [] { return find_narrow_phase("certified")->make({.tolerance = 0.01}); };
+  const auto measured = [&](std::optional<double> tolerance) {
+    settings.tolerance = tolerance;
+    const auto phase = find_concave_phase("fused")->make(settings);
+    phase->bind(bodies);
+    Outcome outcome;
+    std::vector<IndexPair> pairs;
+    phase->solve(ConcaveTask::distance, {0, {}}, {1, moved_by({4, 1, 0.5})}, outcome, pairs);
+    EXPECT_LT(outcome.lower, outcome.upper);
+    return outcome.status;
+  };
+  EXPECT_EQ(measured(0.01), Status::ok);
+  EXPECT_EQ(measured({}), Status::not_converged);
 }
 
 }  // namespace

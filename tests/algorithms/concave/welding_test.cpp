@@ -126,5 +126,32 @@ TEST(Welding, TheSlopeOfADitchPushesAlongItsFace) {
   EXPECT_GT(welded, 0);
 }
 
+// A ball that lies on a box near its rim: also the triangles of the side give it the normal of the top.
+TEST(Welding, TheRimOfABoxPushesUp) {
+  std::vector<std::array<Vec3d, 3>> triangles;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Vec3d out = Vec3d::Zero(), u = Vec3d::Zero(), v = Vec3d::Zero();
+      out[axis] = side;
+      u[(axis + 1) % 3] = side;
+      v[(axis + 2) % 3] = 1;
+      triangles.push_back({out - u - v, out + u - v, out + u + v});
+      triangles.push_back({out - u - v, out + u + v, out - u + v});
+    }
+  }
+  const ConcaveBody box = mesh_of(triangles);
+  int welded = 0;
+  for (const double x : {0.7, 0.9, 0.99}) {
+    const Pose at = moved_by({x, 0.2, 1.4});
+    const ConcaveBody ball = body_of(reference::make_sphere(0.5));
+    for (const PartContact& contact : contacts_of("fused", true, {box, ball}, {}, at)) {
+      EXPECT_LT((contact.normal - Vec3d::UnitZ()).norm(), 1e-9) << x;
+      EXPECT_NEAR(contact.depth, 0.1, 1e-9) << x;
+      welded += contact.is_welded;
+    }
+  }
+  EXPECT_GT(welded, 0);
+}
+
 }  // namespace
 }  // namespace touchstone

@@ -56,6 +56,13 @@ TEST(PointsCommand, WrongRequests) {
   ran = run_program("points " + mesh.string() + " --points " + points.string() + " --query nobody" +
                     end);
   EXPECT_EQ(ran.status, 2);
+  const auto open = folder.write("open.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 3 2\n");
+  folder.write("points.csv", "x,y,z\n1,1,-2\n");
+  const std::string asked = "points " + open.string() + " --points " + points.string() + end;
+  EXPECT_EQ(run_program(asked).status, 0);
+  ran = run_program(asked + " --task side");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.text, ::testing::HasSubstr("open.obj: the surface is open at the edge from"));
 }
 
 }  // namespace

@@ -99,6 +99,16 @@ TEST_F(MeshTest, CutsPolygonsIntoFans) {
             (Triangles{{3, 2, 1}, {3, 1, 0}}));
 }
 
+TEST_F(MeshTest, PassesWhatNobodyNeedsEvenIfItIsNotFinite) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float nx\nend_header\n";
+  EXPECT_EQ(read("a.ply", head + "1 2 3 nan\n").vertices, std::vector<Vec3d>{Vec3d(1, 2, 3)});
+  EXPECT_EQ(read("a.ply", head + "1 2 3 -inf\n").vertices.size(), 1u);
+  EXPECT_THAT(input_fault([&] { read("a.ply", head + "1 2 3 up\n"); }),
+              testing::HasSubstr("expected a number"));
+}
+
 TEST_F(MeshTest, ReadsOffVariants) {
   for (const char* head :
        {"COFF\n1 0 0\n1 2 3 255 0 0 1\n", "NOFF 1 0 0\n1 2 3 0 0 1\n",
@@ -148,6 +158,13 @@ TEST_F(MeshTest, ErrorsNameFileAndLine) {
   expect("a.stl", "solid a\nfacet\nouter loop\nvertex 0 0\n", "4:", "finite number");
   expect("a.stl", "solid a\nfacet\nouter loop\nvertex 0 0 0\nendloop\n", "5:", "three");
   expect("a.stl", "solid a\nfacet\n", "2:", "ends early");
+  const std::string loop = "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  expect("a.stl", "solid a\nfacet\n" + loop + "endfacet\nendsolid\n", "7:", "endloop");
+  expect("a.stl", "solid a\nfacet\n" + loop + "endsolid\n", "7:", "endloop");
+  expect("a.stl", "solid a\nfacet\n" + loop + loop + "endloop\n", "7:", "endloop");
+  expect("a.stl", "solid a\nfacet\nendfacet\nendsolid\n", "3:", "outer loop");
+  expect("a.stl", "solid a\nfacet\nvertex 0 0 0\n", "3:", "outer loop");
+  expect("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", "7:", "after 1 faces");
   expect("a.stl", "solid a\nendsolid\n", "", "no vertices");
   expect("a.stl", "junk", "", "ends early at byte 4");
   expect("a.stl", binary_stl("x").substr(0, 200), "", "ends early at byte 200");
