@@ -90,6 +90,22 @@ TurnedShape turned(const ConcaveShape& shape) {
   return {shape.hull, Mat3d::Identity(), shape.mesh, shape.body};
 }
 
+void add_shape(const TurnedShape& shape, const Pose& pose, std::vector<Pose>& around,
+               ConcaveBody& compound) {
+  if (shape.body == nullptr) {
+    const Pose placed = {base::product(pose.rotation, shape.turn), pose.translation};
+    geometry::place_within(around, compound.parts.emplace_back(ConvexPart{shape.shape, placed}));
+  } else if (shape.body->mesh != nullptr) {
+    geometry::add_surface(shape.body->mesh, pose, around, compound);
+  } else {
+    around.push_back(pose);
+    for (const ConvexPart& part : shape.body->parts) {
+      geometry::place_within(around, compound.parts.emplace_back(part));
+    }
+    around.pop_back();
+  }
+}
+
 }  // namespace
 
 std::span<const std::string_view> shape_names() {
@@ -164,23 +180,16 @@ TurnedShape ShapeReader::read_made(files::TomlTable& table, std::string_view typ
 }
 
 void ShapeReader::add_parts(files::TomlTable& table, std::vector<Pose>& around,
-                            std::vector<ConvexPart>& parts) {
+                            ConcaveBody& compound) {
   for (files::TomlTable& part : table.tables("parts")) {
     files::TomlTable shape = part.inside("shape", part.where() + ": shape");
     Pose pose = read_pose(part);
     if (shape.contains("type") && shape.text("type") == "compound") {
       around.push_back(pose);
-      add_parts(shape, around, parts);
+      add_parts(shape, around, compound);
       around.pop_back();
     } else {
-      const TurnedShape convex = read(shape);
-      if (convex.body != nullptr) {
-        shape.fail("type",
-                   "not convex, and in a compound; expected convex shapes and compounds, or a "
-                   "mesh as = \"hull\"");
-      }
-      pose.rotation = base::product(pose.rotation, convex.turn);
-      geometry::place_within(around, parts.emplace_back(ConvexPart{convex.shape, pose}));
+      add_shape(read(shape), pose, around, compound);
     }
     shape.finish();
     part.finish();
@@ -189,15 +198,15 @@ void ShapeReader::add_parts(files::TomlTable& table, std::vector<Pose>& around,
 
 TurnedShape ShapeReader::read_compound(files::TomlTable& table) {
   std::vector<Pose> around;
-  std::vector<ConvexPart> parts;
-  add_parts(table, around, parts);
+  ConcaveBody body;
+  add_parts(table, around, body);
   const bool endless = std::ranges::any_of(
-      parts, [](const ConvexPart& part) { return part.shape.kind == ShapeKind::halfspace; });
-  if (parts.empty() || endless) {
-    table.fail("parts", parts.empty() ? "no parts; expected at least one"
-                                      : "a half-space in a compound; expected bounded parts");
+      body.parts, [](const ConvexPart& part) { return part.shape.kind == ShapeKind::halfspace; });
+  if (body.parts.empty() || endless) {
+    table.fail("parts", body.parts.empty() ? "no parts; expected at least one"
+                                           : "a half-space in a compound; expected bounded parts");
   }
-  return turned(compound_shape(std::move(parts)));
+  return turned(compound_shape(std::move(body)));
 }
 
 const std::vector<MeshPart>& ShapeReader::read_parts(files::TomlTable& table) {
