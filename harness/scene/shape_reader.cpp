@@ -10,8 +10,8 @@
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/mesh_mass.h"
 #include "harness/geometry/shapes/compound.h"
-#include "harness/geometry/shapes/mesh_shapes.h"
 #include "harness/scene/placement.h"
+#include "harness/scene/shapes/made_mesh.h"
 
 namespace touchstone::scene {
 namespace {
@@ -26,7 +26,6 @@ Mat3d axis_turn(std::size_t axis) {
 }
 
 constexpr std::array<std::string_view, 4> use_names = {"surface", "solid", "hull", "compound"};
-constexpr std::array<std::string_view, 4> made_names = {"torus", "trefoil", "gear", "terrain"};
 
 Vec3d read_scale(files::TomlTable& table) {
   const toml::node* node = table.node("scale");
@@ -55,35 +54,6 @@ void expect_closed(files::TomlTable& table, std::string_view key, const geometry
   table.fail(key, fmt::format("a solid, and the surface is open at the edge from [{}, {}, {}] to "
                               "[{}, {}, {}]; expected a closed one, or as = \"surface\"",
                               from[0], from[1], from[2], to[0], to[1], to[2]));
-}
-
-geometry::Mesh make_mesh(files::TomlTable& table, std::string_view type) {
-  const auto count = [&](std::string_view key, std::int64_t low, std::int64_t usual) {
-    return static_cast<std::size_t>(table.integer(key, low, 4096, usual));
-  };
-  const auto length = [&](std::string_view key, double usual, double high = 0.99) {
-    return table.number(key, {.low = 0.01, .high = high}, usual);
-  };
-  if (type == "torus") {
-    return geometry::torus(count("around", 3, 32), count("across", 3, 16),
-                           length("tube_radius", 0.25));
-  }
-  if (type == "trefoil") {
-    return geometry::trefoil(count("around", 12, 96), count("across", 3, 12),
-                             length("tube_radius", 0.25));
-  }
-  if (type == "terrain") {
-    const std::size_t cells = count("cells", 1, 64);
-    return geometry::terrain(cells, table.number("height", files::not_negative, 0.1),
-                             static_cast<std::uint64_t>(table.integer("seed", 0, INT64_MAX, 1)));
-  }
-  const std::size_t teeth = count("teeth", 3, 16);
-  const double root = length("root_radius", 0.8), hole = length("hole_radius", 0.3);
-  if (hole >= root) {
-    table.fail("hole_radius",
-               fmt::format("found {}; expected less than root_radius {}", hole, root));
-  }
-  return geometry::gear(teeth, root, hole, length("thickness", 0.3, 100));
 }
 
 TurnedShape turned(const ConcaveShape& shape) {
@@ -167,13 +137,15 @@ TurnedShape ShapeReader::read_mesh(files::TomlTable& table) {
 
 // The vertices are rounded to floats at their scale, so that all libraries get the same body.
 TurnedShape ShapeReader::read_made(files::TomlTable& table, std::string_view type) const {
-  geometry::Mesh mesh = make_mesh(table, type);
+  geometry::Mesh mesh = made_mesh(table, type, [&](std::string_view key, std::string_view what) {
+    return existing_file(table, key, what);
+  });
   const Vec3d scale = read_scale(table);
   for (Vec3d& v : mesh.vertices) {
     v = nearest_float(Vec3d(v.cwiseProduct(scale)));
     if (!v.allFinite()) table.fail("scale", "the mesh is not finite; expected a smaller scale");
   }
-  const bool closed = type != "terrain";
+  const bool closed = type != "terrain" && type != "height_field";
   const MeshUse use = use_of(table, closed ? MeshUse::solid : MeshUse::surface);
   expect_closed(table, "type", mesh, use);
   return turned(mesh_shape(std::move(mesh), use));
@@ -183,7 +155,7 @@ void ShapeReader::add_parts(files::TomlTable& table, std::vector<Pose>& around,
                             ConcaveBody& compound) {
   for (files::TomlTable& part : table.tables("parts")) {
     files::TomlTable shape = part.inside("shape", part.where() + ": shape");
-    Pose pose = read_pose(part);
+    const Pose pose = read_pose(part);
     if (shape.contains("type") && shape.text("type") == "compound") {
       around.push_back(pose);
       add_parts(shape, around, compound);
