@@ -16,6 +16,7 @@ void add_kinds(Arguments& command, check::CaseSelection& selection) {
   add(check::CaseKind::points, "Point queries");
   add(check::CaseKind::cast, "Casts of moving bodies");
   add(check::CaseKind::ccd, "Continuous collision of features");
+  add(check::CaseKind::scene_rays, "Ray casts of scenes");
 }
 
 void add_selection(Arguments& command, check::CaseSelection& selection) {

@@ -6,7 +6,7 @@
 
 namespace touchstone::commands {
 
-// Adds --concave, --rays, --points, --cast and --ccd.
+// Adds --concave, --rays, --points, --cast, --ccd and --scene-rays.
 void add_kinds(Arguments& command, check::CaseSelection& selection);
 // Adds these, --regimes and --groups.
 void add_selection(Arguments& command, check::CaseSelection& selection);

@@ -185,6 +185,22 @@ std::vector<Vec3d> TomlTable::points(std::string_view key) {
   return points;
 }
 
+std::vector<std::vector<double>> TomlTable::rows(std::string_view key) {
+  required(key, "an array of rows of numbers");
+  std::vector<std::vector<double>> rows;
+  for (const toml::node* row : elements(key)) {
+    const toml::array* numbers = row->as_array();
+    if (numbers == nullptr || (!rows.empty() && numbers->size() != rows[0].size())) {
+      fail_at(*row, key,
+              fmt::format("row {} is {}; expected an array of numbers, as long as all rows",
+                          rows.size() + 1, show(*row)));
+    }
+    std::vector<double>& values = rows.emplace_back();
+    for (const toml::node& number : *numbers) values.push_back(checked(number, key, any_number));
+  }
+  return rows;
+}
+
 std::pair<double, double> TomlTable::range(std::string_view key, Limits limits,
                                            std::pair<double, double> fallback) {
   const toml::node* found = node(key);

@@ -63,6 +63,8 @@ class TomlTable {
   std::vector<double> numbers(std::string_view key, std::size_t count, Limits limits);
   // An array of at least one point.
   std::vector<Vec3d> points(std::string_view key);
+  // An array of at least one array of numbers, all of one length.
+  std::vector<std::vector<double>> rows(std::string_view key);
   // Two numbers in ascending order; a single number stands for both.
   std::pair<double, double> range(std::string_view key, Limits limits,
                                   std::pair<double, double> fallback);

@@ -31,11 +31,11 @@ double stretch_of(const Mat3d& rotation) {
 
 ConcaveShape mesh_shape(geometry::Mesh mesh, MeshUse use) {
   if (use == MeshUse::compound) {
-    std::vector<ConvexPart> parts;
+    ConcaveBody body;
     for (const geometry::Mesh& part : geometry::connected_parts(mesh)) {
-      parts.push_back({reduced_hull(part.vertices), Pose{}});
+      body.parts.push_back({reduced_hull(part.vertices), Pose{}});
     }
-    return compound_shape(std::move(parts));
+    return compound_shape(std::move(body));
   }
   ConcaveShape made{reduced_hull(mesh.vertices), nullptr, nullptr};
   if (use != MeshUse::hull) {
@@ -49,11 +49,11 @@ ConcaveShape mesh_shape(geometry::Mesh mesh, MeshUse use) {
   return made;
 }
 
-ConcaveShape compound_shape(std::vector<ConvexPart> parts) {
-  geometry::Mesh mesh = geometry::surface_of(parts);
+ConcaveShape compound_shape(ConcaveBody body) {
+  geometry::Mesh mesh = geometry::surface_of(body);
   ConcaveShape made{reduced_hull(mesh.vertices), nullptr, nullptr};
   made.mesh = std::make_shared<const geometry::Mesh>(std::move(mesh));
-  made.body = std::make_shared<const ConcaveBody>(ConcaveBody{nullptr, std::move(parts)});
+  made.body = std::make_shared<const ConcaveBody>(std::move(body));
   return made;
 }
 

@@ -26,7 +26,8 @@ struct ConcaveShape {
 };
 
 ConcaveShape mesh_shape(geometry::Mesh mesh, MeshUse use);
-ConcaveShape compound_shape(std::vector<ConvexPart> parts);
+// `body` is a compound.
+ConcaveShape compound_shape(ConcaveBody body);
 
 // The tight box of a body that has triangles or parts, rounded outward.
 Aabb concave_box(const ConcaveBody& body, const Shape& hull, const Pose& pose);

@@ -67,6 +67,9 @@ class Hash {
       add(part.shape);
       add(part.pose);
     }
+    for (const CompoundSurface& surface : body.surfaces) {
+      add(std::uint64_t{surface.first} * 2 + (surface.mesh->solid ? 1 : 0));
+    }
   }
   void add(const Motion& motion) {
     add(static_cast<std::uint64_t>(motion.kind));

@@ -10,8 +10,8 @@
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/mesh_mass.h"
 #include "harness/geometry/shapes/compound.h"
-#include "harness/geometry/shapes/mesh_shapes.h"
 #include "harness/scene/placement.h"
+#include "harness/scene/shapes/made_mesh.h"
 
 namespace touchstone::scene {
 namespace {
@@ -26,7 +26,6 @@ Mat3d axis_turn(std::size_t axis) {
 }
 
 constexpr std::array<std::string_view, 4> use_names = {"surface", "solid", "hull", "compound"};
-constexpr std::array<std::string_view, 4> made_names = {"torus", "trefoil", "gear", "terrain"};
 
 Vec3d read_scale(files::TomlTable& table) {
   const toml::node* node = table.node("scale");
@@ -57,37 +56,24 @@ void expect_closed(files::TomlTable& table, std::string_view key, const geometry
                               from[0], from[1], from[2], to[0], to[1], to[2]));
 }
 
-geometry::Mesh make_mesh(files::TomlTable& table, std::string_view type) {
-  const auto count = [&](std::string_view key, std::int64_t low, std::int64_t usual) {
-    return static_cast<std::size_t>(table.integer(key, low, 4096, usual));
-  };
-  const auto length = [&](std::string_view key, double usual, double high = 0.99) {
-    return table.number(key, {.low = 0.01, .high = high}, usual);
-  };
-  if (type == "torus") {
-    return geometry::torus(count("around", 3, 32), count("across", 3, 16),
-                           length("tube_radius", 0.25));
-  }
-  if (type == "trefoil") {
-    return geometry::trefoil(count("around", 12, 96), count("across", 3, 12),
-                             length("tube_radius", 0.25));
-  }
-  if (type == "terrain") {
-    const std::size_t cells = count("cells", 1, 64);
-    return geometry::terrain(cells, table.number("height", files::not_negative, 0.1),
-                             static_cast<std::uint64_t>(table.integer("seed", 0, INT64_MAX, 1)));
-  }
-  const std::size_t teeth = count("teeth", 3, 16);
-  const double root = length("root_radius", 0.8), hole = length("hole_radius", 0.3);
-  if (hole >= root) {
-    table.fail("hole_radius",
-               fmt::format("found {}; expected less than root_radius {}", hole, root));
-  }
-  return geometry::gear(teeth, root, hole, length("thickness", 0.3, 100));
-}
-
 TurnedShape turned(const ConcaveShape& shape) {
   return {shape.hull, Mat3d::Identity(), shape.mesh, shape.body};
+}
+
+void add_shape(const TurnedShape& shape, const Pose& pose, std::vector<Pose>& around,
+               ConcaveBody& compound) {
+  if (shape.body == nullptr) {
+    const Pose placed = {base::product(pose.rotation, shape.turn), pose.translation};
+    geometry::place_within(around, compound.parts.emplace_back(ConvexPart{shape.shape, placed}));
+  } else if (shape.body->mesh != nullptr) {
+    geometry::add_surface(shape.body->mesh, pose, around, compound);
+  } else {
+    around.push_back(pose);
+    for (const ConvexPart& part : shape.body->parts) {
+      geometry::place_within(around, compound.parts.emplace_back(part));
+    }
+    around.pop_back();
+  }
 }
 
 }  // namespace
@@ -151,36 +137,31 @@ TurnedShape ShapeReader::read_mesh(files::TomlTable& table) {
 
 // The vertices are rounded to floats at their scale, so that all libraries get the same body.
 TurnedShape ShapeReader::read_made(files::TomlTable& table, std::string_view type) const {
-  geometry::Mesh mesh = make_mesh(table, type);
+  geometry::Mesh mesh = made_mesh(table, type, [&](std::string_view key, std::string_view what) {
+    return existing_file(table, key, what);
+  });
   const Vec3d scale = read_scale(table);
   for (Vec3d& v : mesh.vertices) {
     v = nearest_float(Vec3d(v.cwiseProduct(scale)));
     if (!v.allFinite()) table.fail("scale", "the mesh is not finite; expected a smaller scale");
   }
-  const bool closed = type != "terrain";
+  const bool closed = type != "terrain" && type != "height_field";
   const MeshUse use = use_of(table, closed ? MeshUse::solid : MeshUse::surface);
   expect_closed(table, "type", mesh, use);
   return turned(mesh_shape(std::move(mesh), use));
 }
 
 void ShapeReader::add_parts(files::TomlTable& table, std::vector<Pose>& around,
-                            std::vector<ConvexPart>& parts) {
+                            ConcaveBody& compound) {
   for (files::TomlTable& part : table.tables("parts")) {
     files::TomlTable shape = part.inside("shape", part.where() + ": shape");
-    Pose pose = read_pose(part);
+    const Pose pose = read_pose(part);
     if (shape.contains("type") && shape.text("type") == "compound") {
       around.push_back(pose);
-      add_parts(shape, around, parts);
+      add_parts(shape, around, compound);
       around.pop_back();
     } else {
-      const TurnedShape convex = read(shape);
-      if (convex.body != nullptr) {
-        shape.fail("type",
-                   "not convex, and in a compound; expected convex shapes and compounds, or a "
-                   "mesh as = \"hull\"");
-      }
-      pose.rotation = base::product(pose.rotation, convex.turn);
-      geometry::place_within(around, parts.emplace_back(ConvexPart{convex.shape, pose}));
+      add_shape(read(shape), pose, around, compound);
     }
     shape.finish();
     part.finish();
@@ -189,15 +170,15 @@ void ShapeReader::add_parts(files::TomlTable& table, std::vector<Pose>& around,
 
 TurnedShape ShapeReader::read_compound(files::TomlTable& table) {
   std::vector<Pose> around;
-  std::vector<ConvexPart> parts;
-  add_parts(table, around, parts);
+  ConcaveBody body;
+  add_parts(table, around, body);
   const bool endless = std::ranges::any_of(
-      parts, [](const ConvexPart& part) { return part.shape.kind == ShapeKind::halfspace; });
-  if (parts.empty() || endless) {
-    table.fail("parts", parts.empty() ? "no parts; expected at least one"
-                                      : "a half-space in a compound; expected bounded parts");
+      body.parts, [](const ConvexPart& part) { return part.shape.kind == ShapeKind::halfspace; });
+  if (body.parts.empty() || endless) {
+    table.fail("parts", body.parts.empty() ? "no parts; expected at least one"
+                                           : "a half-space in a compound; expected bounded parts");
   }
-  return turned(compound_shape(std::move(parts)));
+  return turned(compound_shape(std::move(body)));
 }
 
 const std::vector<MeshPart>& ShapeReader::read_parts(files::TomlTable& table) {

@@ -52,9 +52,10 @@ class ShapeReader {
       : folder_(std::move(folder)), get_(std::move(get)), uses_(uses) {}
 
   // Reads `type` with its sizes, named as in the case format, or `mesh`. A mesh, from a file or of
-  // the types torus, trefoil, gear and terrain, has an optional `scale` (one number, or one for each
-  // axis) and `as`, what it is (MeshUse). A compound has `parts`, each with `shape` and its place.
-  // Makes the keys known to the table; the caller calls finish.
+  // the types torus, trefoil, gear, terrain and height_field, has an optional `scale` (one number, or
+  // one for each axis) and `as`, what it is (MeshUse). A compound has `parts`, each with `shape` and
+  // its place; of a mesh among them each triangle is a part. Makes the keys known to the table; the
+  // caller calls finish.
   TurnedShape read(files::TomlTable& table);
   // Reads `mesh`, `scale` and `as` as above, with each connected part of the mesh as its own body.
   const std::vector<MeshPart>& read_parts(files::TomlTable& table);
@@ -71,8 +72,7 @@ class ShapeReader {
   TurnedShape read_mesh(files::TomlTable& table);
   TurnedShape read_made(files::TomlTable& table, std::string_view type) const;
   TurnedShape read_compound(files::TomlTable& table);
-  void add_parts(files::TomlTable& table, std::vector<Pose>& around,
-                 std::vector<ConvexPart>& parts);
+  void add_parts(files::TomlTable& table, std::vector<Pose>& around, ConcaveBody& compound);
   MeshKey mesh_key(files::TomlTable& table) const;
 
   std::filesystem::path folder_;

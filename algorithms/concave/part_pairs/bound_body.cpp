@@ -54,8 +54,14 @@ double shrinking(const Mat3d& rotation) {
   return 1.01 * scaled.squaredNorm() / (2 * volume) / greatest;
 }
 
+double reach_of(const TriangleMesh& mesh) {
+  double reach = 0;
+  for (const Vec3d& vertex : mesh.vertices) reach = std::max(reach, vertex.cwiseAbs().maxCoeff());
+  return reach;
+}
+
 // A corner of each piece of the mesh that its triangles' common corners connect.
-std::vector<std::uint32_t> pieces_of(const TriangleMesh& mesh) {
+std::vector<std::uint32_t> corners_of_pieces(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> above(mesh.vertices.size());
   std::iota(above.begin(), above.end(), 0u);
   const auto root = [&](std::uint32_t v) {
@@ -81,13 +87,45 @@ std::vector<std::uint32_t> pieces_of(const TriangleMesh& mesh) {
 BoundBody::BoundBody(const ConcaveBody& body) : given(&body) {
   if (body.mesh) {
     boxes = made_boxes();
-    for (const Vec3d& vertex : body.mesh->vertices) {
-      reach = std::max(reach, vertex.cwiseAbs().maxCoeff());
-    }
-    pieces = pieces_of(*body.mesh);
-    return;
+    reach = reach_of(*body.mesh);
+  } else {
+    fill_boxes();
   }
-  fill_boxes();
+  add_pieces();
+}
+
+void BoundBody::add_pieces() {
+  const auto add_surface = [&](const TriangleMesh& mesh, std::uint32_t part) {
+    const double far = reach_of(mesh);
+    for (const std::uint32_t corner : corners_of_pieces(mesh)) {
+      pieces.push_back({mesh.vertices[corner], part, far});
+    }
+    if (mesh.solid) solids.push_back({&mesh, part, far});
+  };
+  if (mesh() != nullptr) add_surface(*mesh(), 0);
+  auto surface = given->surfaces.begin();
+  for (std::uint32_t i = 0; i < given->parts.size();) {
+    if (surface != given->surfaces.end() && surface->first == i) {
+      add_surface(*surface->mesh, i);
+      i += static_cast<std::uint32_t>(surface++->mesh->triangles.size());
+      continue;
+    }
+    const Shape& shape = given->parts[i].shape;
+    if (shape.kind != ShapeKind::halfspace) {
+      const Vec3d point =
+          shape.kind == ShapeKind::hull ? shape.hull->vertices[0] : Vec3d(Vec3d::Zero());
+      pieces.push_back({point, i, point.cwiseAbs().maxCoeff()});
+    }
+    ++i;
+  }
+}
+
+ComposedPose BoundBody::place(const Pose& pose, std::uint32_t part, double far) const {
+  if (mesh() != nullptr) return {pose, 0};
+  const ConvexPart& convex = given->parts[part];
+  ComposedPose placed = composed(pose, convex.pose, far);
+  placed.error += 2 * pose.rotation.cwiseAbs().rowwise().sum().maxCoeff() * convex.rounding;
+  return placed;
 }
 
 std::vector<Aabb> BoundBody::made_boxes() const {

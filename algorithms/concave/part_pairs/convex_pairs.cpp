@@ -82,14 +82,12 @@ std::uint32_t ConvexPairs::place(const BoundBody& body, const Pose& pose, std::u
   } else {
     const ConvexPart& convex = body.given->parts[part];
     const double reach = reach_of({{tight_box(convex.shape, Pose{})}});
-    const ComposedPose placed = composed(pose, convex.pose, reach);
-    const double grown = pose.rotation.cwiseAbs().rowwise().sum().maxCoeff() * convex.rounding;
-    const double rounding = placed.error + 2 * grown;
+    const ComposedPose placed = body.place(pose, part, reach);
     const double ball =
-        rounding > 0 ? least_factor(placed.pose.rotation) * ball_in(convex.shape) : 0;
+        placed.error > 0 ? least_factor(placed.pose.rotation) * ball_in(convex.shape) : 0;
     const auto number = static_cast<std::size_t>(&body - bodies_.data());
     add(convex.shape, first_part_[number] + part, placed.pose,
-        {convex.shape.kind, rounding, reach, ball});
+        {convex.shape.kind, placed.error, reach, ball});
   }
   return static_cast<std::uint32_t>(poses_.size() - 1);
 }

@@ -68,11 +68,7 @@ bool ConvexSearch::find(const PlacedConcave& parts, const PlacedConcave& mesh, c
   for (std::size_t i = 0; i < parts_[parts.body].size(); ++i) {
     const Part& part = parts_[parts.body][i];
     ComposedPose place = {parts.pose, 0};
-    if (!part.is_plain) {
-      const ConvexPart& given = body.given->parts[i];
-      place = composed(parts.pose, given.pose, part.reach);
-      place.error += 2 * parts.pose.rotation.cwiseAbs().rowwise().sum().maxCoeff() * given.rounding;
-    }
+    if (!part.is_plain) place = body.place(parts.pose, static_cast<std::uint32_t>(i), part.reach);
     const CommonFrame frame = common_frame(place.pose, part.reach, mesh.pose, reach);
     const double skew = skew_of(place.pose.rotation);
     const bool is_round = part.convex.radius > 0;

@@ -1,9 +1,9 @@
 // Bodies inside of solid meshes: a connected body that does not meet the surface is inside as a
 // whole, or outside, so that one point of each of its pieces tells.
+//
+// Places that are rounded are good enough where nothing is nearer to a surface than that: on the way to the
+// exact places no point crosses it.
 #include "algorithms/concave/part_pairs/interior.h"
-
-#include <algorithm>
-#include <cmath>
 
 #include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/triangles/winding.h"
@@ -11,33 +11,36 @@
 namespace touchstone {
 namespace {
 
-// A point of a bounded convex shape, in its own coordinates.
-Vec3d point_of(const Shape& shape) {
-  return shape.kind == ShapeKind::hull ? shape.hull->vertices[0] : Vec3d::Zero();
+bool holds_a_piece(const SolidSurface& solid, const Pose& pose_of_solid, const BoundBody& body,
+                   const Pose& pose, bool only_exact) {
+  ComposedPose place = {};
+  CommonFrame frame;
+  const PiecePoint* last = nullptr;
+  for (const PiecePoint& piece : body.pieces) {
+    if (last == nullptr || last->part != piece.part) {
+      place = body.place(pose, piece.part, piece.reach);
+      frame = common_frame(pose_of_solid, solid.reach, place.pose, piece.reach);
+    }
+    last = &piece;
+    if (only_exact && place.error > 0) continue;
+    // A point further out than any of the solid's is not inside.
+    const Vec3d seen = frame.b(piece.point).cwiseAbs();
+    if (frame.is_of_a && (seen.array() > solid.reach + frame.error).any()) continue;
+    if (winding_number(*solid.mesh, pose_of_solid, piece.point, place.pose, solid.reach) != 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
 
-bool lies_inside(const BoundBody& body, const Pose& pose, const BoundBody& solid,
-                 const Pose& pose_of_solid) {
-  const CommonFrame frame = common_frame(pose_of_solid, solid.reach, pose, body.reach);
-  const auto winds = [&](const Vec3d& point, const Pose& pose_of_point) {
-    return winding_number(*solid.mesh(), pose_of_solid, point, pose_of_point, solid.reach) != 0;
-  };
-  if (body.mesh() != nullptr) {
-    return std::ranges::any_of(body.pieces, [&](std::uint32_t corner) {
-      const Vec3d& point = body.mesh()->vertices[corner];
-      // A point further out than any of the solid's is not inside.
-      if (frame.is_of_a && (frame.b(point).cwiseAbs().array() > solid.reach + frame.error).any()) {
-        return false;
-      }
-      return winds(point, pose);
-    });
-  }
-  for (const ConvexPart& part : body.given->parts) {
-    if (part.shape.kind == ShapeKind::halfspace) continue;  // it is not bounded
-    // A place that is rounded is good enough: the part is further from the surface than that.
-    if (winds(point_of(part.shape), composed(pose, part.pose, body.reach).pose)) return true;
+bool lies_inside(const BoundBody& body, const Pose& pose, const BoundBody& around,
+                 const Pose& pose_around, bool only_exact) {
+  for (const SolidSurface& solid : around.solids) {
+    const ComposedPose place = around.place(pose_around, solid.part, solid.reach);
+    if (only_exact && place.error > 0) continue;
+    if (holds_a_piece(solid, place.pose, body, pose, only_exact)) return true;
   }
   return false;
 }

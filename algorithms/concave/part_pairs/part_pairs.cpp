@@ -12,8 +12,8 @@
 //          3. A convex part with a convex part or a triangle: a narrow phase decides, sixty-four
 //             pairs at a time. `fused` searches the mesh's tree in the part's frame and tests leaves
 //             of eight triangles (convex_search); the narrow phase gets what rounding leaves open.
-//          4. Where no parts meet and a body is solid, exact winding numbers tell whether a piece of
-//             the other lies inside (interior).
+//          4. Where no parts meet and a body is solid, or a surface in a compound, exact winding numbers
+//             tell whether a piece of the other lies inside (interior).
 //          5. distance: a first descent of the trees to a pair of leaves that is near, then the others
 //             depth first, with bounds in lanes: of boxes in both bodies' frames, and along the way of the
 //             nearest points; of their triangles those are measured whose gaps, also in lanes, leave them
@@ -109,7 +109,7 @@ class PartPairs final : public ConcavePhase {
       if (!search_meshes(a, b, all, pairs, undecided)) find_convex(a, b, all, pairs, undecided);
     }
     if (undecided) outcome.status = *undecided;
-    if (!pairs.empty() || is_inside(a, b)) {
+    if (!pairs.empty() || is_inside(a, b, undecided.has_value())) {
       outcome.answer = Answer::overlapping;
       if (!all) outcome.status = answered_;
     } else {
@@ -209,10 +209,10 @@ class PartPairs final : public ConcavePhase {
     if (!ended && !waiting_.empty()) decide(a, b, all, pairs, undecided);
   }
 
-  bool is_inside(const PlacedConcave& a, const PlacedConcave& b) const {
+  bool is_inside(const PlacedConcave& a, const PlacedConcave& b, bool only_exact) const {
     const BoundBody &first = bodies_[a.body], &second = bodies_[b.body];
-    return (first.is_solid() && lies_inside(second, b.pose, first, a.pose)) ||
-           (second.is_solid() && lies_inside(first, a.pose, second, b.pose));
+    return lies_inside(second, b.pose, first, a.pose, only_exact) ||
+           lies_inside(first, a.pose, second, b.pose, only_exact);
   }
 
   Status answered_;

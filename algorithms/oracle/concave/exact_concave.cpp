@@ -3,9 +3,9 @@
 // Steps:   1. Make a solid of each triangle and each convex part in `bind`.
 //          2. Ask the oracle about every pair of parts, one at a time, unless their boxes, rounded
 //             outward, are apart.
-//          3. Where none share a point and a body is a solid mesh, count how often its surface winds
-//             around a point of each connected piece or part of the other, in integers
-//             (exact_winding).
+//          3. Where none share a point and a body is a solid mesh, or has one among its parts, count how
+//             often that surface winds around a point of each connected piece or part of the other, in
+//             integers (inside, exact_winding).
 //          4. distance: the least of all pairs' distances. Boxes, and gaps of triangles in doubles that
 //             are rounded down (triangle_gap), exclude most pairs; the pair with the least of these
 //             bounds is measured first, and those of which they are not above its distance.
@@ -18,7 +18,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -26,7 +25,7 @@
 #include "algorithms/core/bounds.h"
 #include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/oracle/answer.h"
-#include "algorithms/oracle/concave/exact_winding.h"
+#include "algorithms/oracle/concave/inside.h"
 #include "algorithms/oracle/concave/triangle_gap.h"
 
 namespace touchstone {
@@ -60,31 +59,12 @@ double reach_of_shape(const Shape& shape) {
   return reach;
 }
 
-// A vertex of each piece of the mesh that hangs together by shared vertices.
-std::vector<std::uint32_t> one_of_each_piece(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& corners : mesh.triangles) {
-    parent[root(corners[1])] = root(corners[0]);
-    parent[root(corners[2])] = root(corners[0]);
-  }
-  std::vector<std::uint32_t> pieces;
-  for (const auto& corners : mesh.triangles) pieces.push_back(root(corners[0]));
-  std::ranges::sort(pieces);
-  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
-  return pieces;
-}
-
 struct ExactBody {
   const ConcaveBody* given;
   std::vector<Shape> shapes;
   std::vector<Solid> solids;
-  std::vector<double> reaches;        // of convex parts, in their own coordinates
-  std::vector<std::uint32_t> pieces;  // of a mesh
+  std::vector<double> reaches;  // of convex parts, in their own coordinates
+  std::vector<oracle::Piece> pieces;
 };
 
 // A part in its place, which may be off by `rounding` metres. The box holds it wherever it is.
@@ -124,7 +104,7 @@ class ExactConcave final : public ConcavePhase {
         body.shapes.push_back(shape_of(*given.mesh, i));
         body.solids.emplace_back(body.shapes.back());
       }
-      if (given.mesh) body.pieces = one_of_each_piece(*given.mesh);
+      body.pieces = oracle::pieces_of(given);
       for (const ConvexPart& part : given.parts) {
         body.shapes.push_back(part.shape);
         body.solids.emplace_back(part.shape);
@@ -149,7 +129,7 @@ class ExactConcave final : public ConcavePhase {
       }
       if (task != ConcaveTask::contacts && !pairs.empty()) break;
     }
-    if (!pairs.empty() || is_inside(a, b) || is_inside(b, a)) {
+    if (!pairs.empty() || is_inside(a, b, undecided) || is_inside(b, a, undecided)) {
       outcome.answer = Answer::overlapping;
     } else {
       outcome.answer = undecided ? Answer::unknown : Answer::separated;
@@ -258,24 +238,10 @@ class ExactConcave final : public ConcavePhase {
     return best;
   }
 
-  // True if a piece of `inner` is inside of `outer`'s surface; they do not meet on it.
-  bool is_inside(const PlacedConcave& inner, const PlacedConcave& outer) const {
-    const ConcaveBody &body = *bodies_[inner.body].given, &around = *bodies_[outer.body].given;
-    if (!around.mesh || !around.mesh->solid) return false;
-    const auto winds = [&](const Vec3d& point, const Pose& pose) {
-      return oracle::exact_winding(*around.mesh, outer.pose, point, pose) != 0;
-    };
-    if (body.mesh) {
-      return std::ranges::any_of(bodies_[inner.body].pieces, [&](std::uint32_t vertex) {
-        return winds(body.mesh->vertices[vertex], inner.pose);
-      });
-    }
-    return std::ranges::any_of(body.parts, [&](const ConvexPart& part) {
-      if (part.shape.kind == ShapeKind::halfspace) return false;
-      const Vec3d point =
-          part.shape.kind == ShapeKind::hull ? part.shape.hull->vertices[0] : Vec3d::Zero();
-      return winds(point, composed(inner.pose, part.pose, 0).pose);
-    });
+  bool is_inside(const PlacedConcave& inner, const PlacedConcave& outer, bool only_exact) const {
+    const ExactBody& body = bodies_[inner.body];
+    return oracle::is_inside(*body.given, body.pieces, inner.pose, *bodies_[outer.body].given,
+                             outer.pose, only_exact);
   }
 
   std::vector<ExactBody> bodies_;

@@ -2,14 +2,15 @@
 // Paper:   none. A ray at a convex part is a point that moves: see cast/exact_cast for what moves exactly. A
 //          ray at a triangle is one in the plane of three placed points: see ray_triangle.
 // Steps:   1. Leave out what the ray passes for certain (box_tree over boxes in the world).
-//          2. Of the triangles that are left, compare the fractions at which the ray is first in them.
-//          3. For each convex part that is left, a power of two times the direction is a displacement that
-//             passes it; a point moves by it, and the oracle of casts says when they first touch.
+//          2. Of the triangles and half-spaces that are left, compare the fractions at which the ray is first
+//             in them.
+//          3. For each other convex part that is left, a power of two times the direction is a displacement
+//             that passes it; a point moves by it, and the oracle of casts says when they first touch.
 //          4. Times of convex parts are compared by their brackets.
 // Departs: it shares no code with the algorithms that it judges.
-// Fails:   triangles are exact; spheres, capsules, boxes and hulls are but for the time, which is within
-//          2^-80 of the displacement; the others have an enclosure, which for half-spaces often tells
-//          nothing. Where a bracket does not tell whether a hit is within t_max, or the oracle of casts does
+// Fails:   triangles and half-spaces are exact; spheres, capsules, boxes and hulls are but for the time,
+//          which is within 2^-80 of the displacement; the others have an enclosure. A half-space whose
+//          matrix has no inverse makes each ray `not_converged`. Where a bracket does not tell whether a hit is within t_max, or the oracle of casts does
 //          not know, the status is `not_converged`. Normals are not given. Of parts that are hit at
 //          one time, the first is reported. Poses of parts within bodies are multiplied in doubles.
 // Cost:    O(log n) a ray where parts are small, some microseconds for each triangle and a tenth of a
@@ -22,6 +23,7 @@
 #include "algorithms/cast.h"
 #include "algorithms/core/bounds.h"
 #include "algorithms/oracle/rays/box_tree.h"
+#include "algorithms/oracle/rays/ray_half_space.h"
 #include "algorithms/oracle/rays/ray_triangle.h"
 #include "algorithms/scene_ray_cast.h"
 
@@ -128,21 +130,11 @@ class ExactSceneCast final : public SceneRayCast {
   // A power of two times the direction that passes every point of the shape's box.
   static double length_past(const Ray& ray, const Shape& shape, const Pose& pose) {
     double reach = 1e-300;
-    if (shape.kind == ShapeKind::halfspace) {
-      const Vec3d n = (pose.rotation * shape.normal).stableNormalized();
-      const Vec3d from = pose.rotation.transpose() * (ray.origin - pose.translation);
-      const double slope = std::abs(n.dot(ray.direction));
-      const double height =
-          std::abs(shape.normal.dot(from) - shape.offset) / shape.normal.stableNorm();
-      // Beyond that a plane that the ray nearly runs along is not looked for.
-      reach = std::min(height / slope, 1e15 * (1 + height)) * ray.direction.stableNorm();
-    } else {
-      const Aabb box = tight_box(shape, pose);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double at = ray.origin[static_cast<Eigen::Index>(k)];
-        reach = std::max({reach, std::abs(static_cast<double>(box.min[k]) - at),
-                          std::abs(static_cast<double>(box.max[k]) - at)});
-      }
+    const Aabb box = tight_box(shape, pose);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = ray.origin[static_cast<Eigen::Index>(k)];
+      reach = std::max({reach, std::abs(static_cast<double>(box.min[k]) - at),
+                        std::abs(static_cast<double>(box.max[k]) - at)});
     }
     const double ratio = 4 * reach / ray.direction.cwiseAbs().maxCoeff();
     return std::ldexp(1.0, std::clamp(std::ilogb(ratio) + 1, -900, 900));
@@ -159,20 +151,37 @@ class ExactSceneCast final : public SceneRayCast {
     std::ranges::sort(asked_);
     asked_.erase(std::ranges::unique(asked_).begin(), asked_.end());
     double best_upper = 0;  // a bound on the best's t
-    ask_triangles(ray, best, best_upper);
+    ask_flat_parts(ray, best, best_upper);
     for (const std::uint32_t i : asked_) {
-      if (parts_[i].mesh == nullptr) ask_convex(ray, i, best, best_upper);
+      if (!is_flat(parts_[i])) ask_convex(ray, i, best, best_upper);
     }
     return best;
   }
 
-  void ask_triangles(const Ray& ray, SceneRayHit& best, double& best_upper) const {
+  bool is_flat(const Part& part) const {
+    return part.mesh != nullptr || shapes_[part.shape].kind == ShapeKind::halfspace;
+  }
+
+  // The first point in a triangle or a half-space.
+  std::optional<oracle::RayPoint> first_point(const Ray& ray, const Part& part,
+                                              Status& status) const {
+    if (part.mesh != nullptr) {
+      return oracle::first_point(ray.origin, ray.direction, corners(part),
+                                 poses_of_bodies_[part.body]);
+    }
+    const oracle::Solid solid(shapes_[part.shape]);
+    const oracle::Body body(solid, poses_[part.shape]);
+    if (oracle::has_plane(body)) return oracle::first_point_below(ray.origin, ray.direction, body);
+    status = Status::not_converged;
+    return {};
+  }
+
+  void ask_flat_parts(const Ray& ray, SceneRayHit& best, double& best_upper) const {
     std::optional<oracle::RayPoint> first;
     for (const std::uint32_t i : asked_) {
       const Part& part = parts_[i];
-      if (part.mesh == nullptr) continue;
-      auto point = oracle::first_point(ray.origin, ray.direction, corners(part),
-                                       poses_of_bodies_[part.body]);
+      if (!is_flat(part)) continue;
+      auto point = first_point(ray, part, best.status);
       if (!point) continue;
       if (std::isfinite(ray.t_max) && compare_t(*point, ray.t_max) > 0) continue;
       if (first && compare_t(*point, *first) >= 0) continue;

@@ -248,11 +248,12 @@ using namespace not_built;
 namespace touchstone::entries {
 namespace {
 
-bool is_surface(const ConcaveBody& body) { return body.mesh && !body.mesh->solid; }
+bool is_surface(const ConcaveBody& body) { return body.mesh && !body.has_inside(); }
 bool is_compound(const ConcaveBody& body) {
-  return !body.mesh && std::ranges::none_of(body.parts, [](const ConvexPart& part) {
-    return part.shape.kind == ShapeKind::halfspace;
-  });
+  return !body.mesh && !body.has_inside() &&
+         std::ranges::none_of(body.parts, [](const ConvexPart& part) {
+           return part.shape.kind == ShapeKind::halfspace;
+         });
 }
 
 }  // namespace

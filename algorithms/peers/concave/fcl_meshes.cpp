@@ -166,10 +166,8 @@ std::vector<ConcaveEntry> peers_fcl_meshes() {
                .origin = Origin::peer},
       .tasks = {ConcaveTask::intersect, ConcaveTask::distance, ConcaveTask::contacts},
       .scalars = {Precision::float64},
-      .supports =
-          [](const ConcaveBody& a, const ConcaveBody& b) {
-            return !(a.mesh && a.mesh->solid) && !(b.mesh && b.mesh->solid);
-          },
+      .supports = [](const ConcaveBody& a,
+                     const ConcaveBody& b) { return !a.has_inside() && !b.has_inside(); },
       .approximate = true,
       .make = make_obbrss};
   std::vector<ConcaveEntry> entries = {entry};

@@ -131,7 +131,7 @@ namespace touchstone::entries {
 namespace {
 
 bool takes(const ConcaveBody& body) {
-  if (body.mesh) return !body.mesh->solid;
+  if (body.has_inside()) return false;
   return std::ranges::all_of(body.parts, [](const ConvexPart& part) {
     return part.shape.kind <= ShapeKind::box || part.shape.kind == ShapeKind::halfspace;
   });

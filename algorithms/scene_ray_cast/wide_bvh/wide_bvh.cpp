@@ -9,8 +9,8 @@
 //             mesh by the walk of `wide-bvh` (kernels/rays), which loses no ray between triangles.
 //          4. `place` computes the items' boxes again and refits the tree.
 // Departs: boxes of items are those of a broad phase, in floats and rounded outward.
-// Fails:   rounding decides rays that pass a convex shape within some units of the last place of its
-//          size and distance. An item whose matrix has no inverse makes every ray `unsupported`, and a solid
+// Fails:   rounding decides rays that pass a convex shape, or the outline of a turned mesh, within some
+//          units of the last place of its size and distance. An item whose matrix has no inverse makes every ray `unsupported`, and a solid
 //          hull without faces those `degenerate` that come to it.
 // Cost:    O(log n) a ray where bodies are small; 60 bytes an item besides meshes.
 #include <algorithm>

@@ -9,9 +9,10 @@ std::unique_ptr<CaseBlock> make_case_block(const CaseFamily& family, const Block
     case CaseKind::rays: return make_ray_block(family.number, range);
     case CaseKind::points: return make_point_block(family.number, range);
     case CaseKind::cast: return make_cast_block(family.number, range);
-    case CaseKind::ccd: break;
+    case CaseKind::ccd: return make_ccd_block(family.number, range);
+    case CaseKind::scene_rays: break;
   }
-  return make_ccd_block(family.number, range);
+  return make_scene_ray_block(family.number, range);
 }
 
 }  // namespace touchstone::check

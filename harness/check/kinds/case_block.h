@@ -42,5 +42,6 @@ std::unique_ptr<CaseBlock> make_ray_block(std::uint32_t number, const BlockRange
 std::unique_ptr<CaseBlock> make_point_block(std::uint32_t number, const BlockRange& range);
 std::unique_ptr<CaseBlock> make_cast_block(std::uint32_t number, const BlockRange& range);
 std::unique_ptr<CaseBlock> make_ccd_block(std::uint32_t number, const BlockRange& range);
+std::unique_ptr<CaseBlock> make_scene_ray_block(std::uint32_t number, const BlockRange& range);
 
 }  // namespace touchstone::check

@@ -20,7 +20,8 @@ constexpr std::array<std::string_view, 1> ccd_tasks = {"contact"};
 std::span<const std::string_view> tasks_of(CaseKind kind) {
   switch (kind) {
     case CaseKind::concave: return concave_tasks;
-    case CaseKind::rays: return ray_tasks;
+    case CaseKind::rays:
+    case CaseKind::scene_rays: return ray_tasks;
     case CaseKind::points: return point_tasks;
     case CaseKind::cast: return cast_tasks;
     case CaseKind::ccd: break;
@@ -34,6 +35,10 @@ bool offers(const ConcaveEntry* entry, Precision scalar, std::uint8_t task) {
 bool offers(const RayCastEntry* entry, Precision scalar, std::uint8_t task) {
   return touchstone::offers(*entry, static_cast<RayTask>(task)) &&
          touchstone::offers(*entry, scalar);
+}
+bool offers(const SceneRayCastEntry* entry, Precision scalar, std::uint8_t task) {
+  return scalar == Precision::float64 &&
+         std::ranges::find(entry->tasks, static_cast<RayTask>(task)) != entry->tasks.end();
 }
 bool offers(const PointQueryEntry* entry, Precision scalar, std::uint8_t task) {
   return scalar == entry->scalar &&
@@ -67,7 +72,8 @@ void add(std::vector<Contestant>& all, std::span<const Entry> list, const char* 
 }  // namespace
 
 std::string_view to_string(CaseKind kind) {
-  constexpr std::array<std::string_view, 5> names = {"concave", "rays", "points", "cast", "ccd"};
+  constexpr std::array<std::string_view, all_case_kinds.size()> names = {
+      "concave", "rays", "points", "cast", "ccd", "scene-rays"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -101,6 +107,9 @@ std::vector<Contestant> contestants(CaseKind kind, const std::vector<std::string
     case CaseKind::points: add(all, point_queries(), "point query", names, scalars); break;
     case CaseKind::cast: add(all, casts(), "cast", names, scalars); break;
     case CaseKind::ccd: add(all, ccds(), "continuous collision", names, scalars); break;
+    case CaseKind::scene_rays:
+      add(all, scene_ray_casts(), "ray cast of scenes", names, scalars);
+      break;
   }
   return all;
 }

@@ -1,5 +1,5 @@
-// Algorithms of the kinds that are checked on families: concave phases, ray casts, point queries, casts
-// and continuous collision.
+// Algorithms of the kinds that are checked on families: concave phases, ray casts, point queries, casts,
+// continuous collision and ray casts of scenes.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,10 @@
 
 namespace touchstone::check {
 
-enum class CaseKind : std::uint8_t { concave, rays, points, cast, ccd };
-inline constexpr std::array all_case_kinds = {CaseKind::concave, CaseKind::rays, CaseKind::points,
-                                              CaseKind::cast, CaseKind::ccd};
+enum class CaseKind : std::uint8_t { concave, rays, points, cast, ccd, scene_rays };
+inline constexpr std::array all_case_kinds = {CaseKind::concave, CaseKind::rays,
+                                              CaseKind::points,  CaseKind::cast,
+                                              CaseKind::ccd,     CaseKind::scene_rays};
 
 std::string_view to_string(CaseKind kind);  // the option that names algorithms of the kind
 
@@ -23,7 +24,7 @@ std::string_view to_string(CaseKind kind);  // the option that names algorithms 
 struct Contestant {
   // In the order of CaseKind.
   std::variant<const ConcaveEntry*, const RayCastEntry*, const PointQueryEntry*, const CastEntry*,
-               const CcdEntry*>
+               const CcdEntry*, const SceneRayCastEntry*>
       entry;
   Precision scalar = Precision::float64;
   std::uint8_t task = 0;  // place in the names of its kind's tasks

@@ -8,6 +8,7 @@
 #include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/aimed_rays.h"
 #include "harness/families/ccd_families.h"
+#include "harness/families/ray_scenes.h"
 #include "harness/families/tried_points.h"
 
 namespace touchstone::check {
@@ -60,6 +61,11 @@ const FamilyLists& lists() {
       made.add(CaseKind::ccd, family.name, std::string(to_string(family.pair)));
     }
     made.add_places(CaseKind::ccd, ccd_axes());
+    made.number = 0;
+    for (const families::RayScene scene : families::all_ray_scenes) {
+      made.add(CaseKind::scene_rays, "scene-rays-" + std::string(to_string(scene)), "scene-rays");
+    }
+    made.add_places(CaseKind::scene_rays, scene_ray_axis());
     return made;
   }();
   return all;

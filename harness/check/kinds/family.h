@@ -12,7 +12,7 @@ namespace touchstone::check {
 struct CaseFamily {
   std::string name;  // "triangles-edges-1e-9": lower case, words joined by '-'
   std::string
-      group;  // "triangles", "bodies", "rays", "points", "casts", "turns", "vertex-face", ...
+      group;  // "triangles", "bodies", "rays", "points", "casts", "turns", "vertex-face", "scene-rays", ...
   CaseKind kind{};
   std::uint32_t number = 0;  // among those of its kind
   int one_in = 1;            // so many times fewer cases, since the exact answer takes long

@@ -95,9 +95,10 @@ std::string_view title(CaseKind kind) {
     case CaseKind::rays: return "Rays";
     case CaseKind::points: return "Points";
     case CaseKind::cast: return "Moving bodies";
-    case CaseKind::ccd: break;
+    case CaseKind::ccd: return "Continuous collision of features";
+    case CaseKind::scene_rays: break;
   }
-  return "Continuous collision of features";
+  return "Rays at scenes";
 }
 
 std::string_view key_of(CaseKind kind) {
@@ -119,11 +120,17 @@ std::string_view key_of(CaseKind kind) {
              "within it. *Otherwise wrong*: a time of impact that is late, or so early that the "
              "bodies "
              "are further apart than the tolerance, or a bound that does not hold.";
-    case CaseKind::ccd: break;
+    case CaseKind::ccd:
+      return "The tolerance is 1e-6 of the size, or less; *near* is a hit where the features come "
+             "within it. "
+             "*Otherwise wrong*: a time of impact that is late, or a bound that does not hold.";
+    case CaseKind::scene_rays: break;
   }
-  return "The tolerance is 1e-6 of the size, or less; *near* is a hit where the features come "
-         "within it. "
-         "*Otherwise wrong*: a time of impact that is late, or a bound that does not hold.";
+  return "A contact is a hit. *Near*: what is right if convex parts are larger or smaller by some "
+         "units of the last place of their size and distance. *Otherwise wrong*: a body that the "
+         "ray "
+         "does not meet, and for `closest` another one than the first, or a length that is off by "
+         "more than 1e-9.";
 }
 
 }  // namespace

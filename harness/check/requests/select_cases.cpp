@@ -90,7 +90,7 @@ void select_cases(const CaseSelection& selection, const char* fallback, CheckReq
   if (some_named && request.period() == 0) {
     throw base::InputError(
         "no algorithm that is named takes cases of these regimes; expected names of another kind, "
-        "such as --narrow, --concave, --rays, --points, --cast or --ccd");
+        "such as --narrow, --concave, --rays, --points, --cast, --ccd or --scene-rays");
   }
 }
 

@@ -22,7 +22,7 @@ struct ConcaveCase {
 
 // Reads a file of cases as read_cases does, with meshes and compounds (concave_json.h). Throws
 // InputError for what read_cases throws it for, and for a triangle without three numbers of
-// vertices, a mesh in a compound, and a solid whose surface is open.
+// vertices, and a solid whose surface is open.
 std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file);
 
 // One line, without the line break, that read_concave_cases turns into the same bits. A compound's parts

@@ -2,11 +2,9 @@
 #include "harness/files/concave/concave_json.h"
 
 #include <array>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "algorithms/hull/convex_hull.h"
 #include "harness/files/shape_json.h"
 #include "harness/geometry/shapes/compound.h"
 
@@ -69,28 +67,9 @@ bool has_type(const JsonNode& shape, const char* type) {
   return shape.at("type", "a shape's name").text("a shape's name") == type;
 }
 
-// Adds the triangles of a surface, each a flat hull.
-void add_triangles(const JsonNode& shape, const Pose& pose, std::span<const Pose> around,
-                   std::vector<ConvexPart>& parts) {
-  const std::shared_ptr<const TriangleMesh> mesh = read_mesh(shape);
-  if (mesh->solid) {
-    shape.fail(
-        "found a solid mesh in a compound; expected a surface, or the solid as a body of its own");
-  }
-  for (const auto& corners : mesh->triangles) {
-    ConvexPart& part = parts.emplace_back();
-    part.shape.kind = ShapeKind::hull;
-    part.shape.hull = make_hull(
-        {mesh->vertices[corners[0]], mesh->vertices[corners[1]], mesh->vertices[corners[2]]});
-    part.pose = pose;
-    geometry::place_within(around, part);
-  }
-}
-
 // Adds the parts of a compound that lies within others: `around` has their poses, the outermost
 // first.
-void add_parts(const JsonNode& compound, std::vector<Pose>& around,
-               std::vector<ConvexPart>& parts) {
+void add_parts(const JsonNode& compound, std::vector<Pose>& around, ConcaveBody& body) {
   const JsonNode list = compound.at("parts", "an array of parts");
   list.as_array("an array of parts, each with a shape and its place");
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -99,19 +78,34 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around,
     const JsonNode shape =
         node.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
     if (has_type(shape, "mesh")) {
-      add_triangles(shape, read_pose(node), around, parts);
+      geometry::add_surface(read_mesh(shape), read_pose(node), around, body);
       continue;
     }
     if (has_type(shape, "compound")) {
       around.push_back(read_pose(node));
-      add_parts(shape, around, parts);
+      add_parts(shape, around, body);
       around.pop_back();
       continue;
     }
-    ConvexPart& part = parts.emplace_back();
+    ConvexPart& part = body.parts.emplace_back();
     read_body(node, part.shape, part.pose, ", compound");
     geometry::place_within(around, part);
   }
+}
+
+OrderedJson mesh_to_json(const TriangleMesh& mesh, const Pose& pose) {
+  OrderedJson out = body_to_json(Shape{}, pose);  // for the pose
+  OrderedJson& shape = out["shape"];
+  shape = OrderedJson();
+  shape["type"] = "mesh";
+  shape["vertices"] = OrderedJson::array();
+  for (const Vec3d& v : mesh.vertices) {
+    shape["vertices"].push_back(std::array{v.x(), v.y(), v.z()});
+  }
+  shape["triangles"] = OrderedJson::array();
+  for (const auto& triangle : mesh.triangles) shape["triangles"].push_back(triangle);
+  shape["solid"] = mesh.solid;
+  return out;
 }
 
 }  // namespace
@@ -125,7 +119,7 @@ ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
     pose = read_pose(body);
   } else if (has_type(node, "compound")) {
     std::vector<Pose> around;
-    add_parts(node, around, read.parts);
+    add_parts(node, around, read);
     pose = read_pose(body);
   } else {
     read_body(body, read.parts.emplace_back().shape, pose, ", mesh, compound");
@@ -134,29 +128,27 @@ ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
 }
 
 OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose) {
-  const bool is_shape = !body.mesh && body.parts.size() == 1 &&
+  const bool is_shape = !body.mesh && body.parts.size() == 1 && body.surfaces.empty() &&
                         body.parts[0].pose.rotation.isIdentity(0) &&
                         body.parts[0].pose.translation.isZero(0);
   if (is_shape) return body_to_json(body.parts[0].shape, pose);
+  if (body.mesh) return mesh_to_json(*body.mesh, pose);
   OrderedJson out = body_to_json(Shape{}, pose);  // for the pose
   OrderedJson& shape = out["shape"];
   shape = OrderedJson();
-  if (!body.mesh) {
-    shape["type"] = "compound";
-    shape["parts"] = OrderedJson::array();
-    for (const ConvexPart& part : body.parts) {
+  shape["type"] = "compound";
+  shape["parts"] = OrderedJson::array();
+  auto surface = body.surfaces.begin();
+  for (std::size_t i = 0; i < body.parts.size();) {
+    const ConvexPart& part = body.parts[i];
+    if (surface != body.surfaces.end() && surface->first == i) {
+      shape["parts"].push_back(mesh_to_json(*surface->mesh, part.pose));
+      i += surface++->mesh->triangles.size();
+    } else {
       shape["parts"].push_back(body_to_json(part.shape, part.pose));
+      ++i;
     }
-    return out;
   }
-  shape["type"] = "mesh";
-  shape["vertices"] = OrderedJson::array();
-  for (const Vec3d& v : body.mesh->vertices) {
-    shape["vertices"].push_back(std::array{v.x(), v.y(), v.z()});
-  }
-  shape["triangles"] = OrderedJson::array();
-  for (const auto& triangle : body.mesh->triangles) shape["triangles"].push_back(triangle);
-  shape["solid"] = body.mesh->solid;
   return out;
 }
 

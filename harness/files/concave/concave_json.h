@@ -1,7 +1,8 @@
 // Bodies that need not be convex, in the format of cases: the shapes of shape_json.h, and
 //     {"type": "mesh", "vertices": [[x,y,z]...], "triangles": [[i,j,k]...], "solid": true or false}
 //     {"type": "compound", "parts": [{"shape": ..., "translation": ..., "rotation": ...}...]}
-// where a part is placed like a body, and may be a compound.
+// where a part is placed like a body, and may be a compound. Of a mesh among them each triangle is a part, a
+// flat hull; if it is solid, what it winds around belongs to the body too.
 #pragma once
 
 #include "algorithms/core/mesh/concave_body.h"

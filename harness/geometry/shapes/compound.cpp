@@ -21,6 +21,26 @@ void add_triangle(Mesh& mesh, std::size_t first, std::size_t a, std::size_t b, s
   mesh.triangles.push_back({at(a), at(b), at(c)});
 }
 
+void add_part(Mesh& mesh, const ConvexPart& part) {
+  if (part.shape.kind == ShapeKind::halfspace) return;
+  std::shared_ptr<const Hull> hull = as_polytope(part.shape, polytope_level).hull;
+  if (hull->faces.empty() && hull->dimension == 3) hull = make_hull(hull->vertices);
+  const std::size_t first = mesh.vertices.size();
+  for (const Vec3d& vertex : hull->vertices) mesh.vertices.push_back(part.pose(vertex));
+  for (const Hull::Face& face : hull->faces) {
+    for (std::size_t i = 1; i + 1 < face.loop.size(); ++i) {
+      add_triangle(mesh, first, face.loop[0], face.loop[i], face.loop[i + 1]);
+    }
+  }
+  if (!hull->faces.empty()) return;
+  // A flat hull has no faces. The triangles of one vertex and any two others cover it.
+  for (std::size_t i = 1; i < hull->vertices.size(); ++i) {
+    for (std::size_t k = i + 1; k < hull->vertices.size(); ++k) {
+      add_triangle(mesh, first, 0, i, k);
+    }
+  }
+}
+
 }  // namespace
 
 void place_within(std::span<const Pose> around, ConvexPart& part) {
@@ -33,26 +53,33 @@ void place_within(std::span<const Pose> around, ConvexPart& part) {
   }
 }
 
-Mesh surface_of(std::span<const ConvexPart> parts) {
+void add_surface(std::shared_ptr<const TriangleMesh> mesh, const Pose& pose,
+                 std::span<const Pose> around, ConcaveBody& compound) {
+  if (mesh->triangles.empty()) return;
+  const auto first = static_cast<std::uint32_t>(compound.parts.size());
+  for (const auto& corners : mesh->triangles) {
+    ConvexPart& part = compound.parts.emplace_back();
+    part.shape.kind = ShapeKind::hull;
+    part.shape.hull = make_hull(
+        {mesh->vertices[corners[0]], mesh->vertices[corners[1]], mesh->vertices[corners[2]]});
+    part.pose = pose;
+    place_within(around, part);
+  }
+  compound.surfaces.push_back({std::move(mesh), first});
+}
+
+Mesh surface_of(const ConcaveBody& compound) {
   Mesh mesh;
-  for (const ConvexPart& part : parts) {
-    if (part.shape.kind == ShapeKind::halfspace) continue;
-    std::shared_ptr<const Hull> hull = as_polytope(part.shape, polytope_level).hull;
-    if (hull->faces.empty() && hull->dimension == 3) hull = make_hull(hull->vertices);
+  std::vector<bool> is_of_surface(compound.parts.size());
+  for (const CompoundSurface& surface : compound.surfaces) {
     const std::size_t first = mesh.vertices.size();
-    for (const Vec3d& vertex : hull->vertices) mesh.vertices.push_back(part.pose(vertex));
-    for (const Hull::Face& face : hull->faces) {
-      for (std::size_t i = 1; i + 1 < face.loop.size(); ++i) {
-        add_triangle(mesh, first, face.loop[0], face.loop[i], face.loop[i + 1]);
-      }
-    }
-    if (!hull->faces.empty()) continue;
-    // A flat hull has no faces. The triangles of one vertex and any two others cover it.
-    for (std::size_t i = 1; i < hull->vertices.size(); ++i) {
-      for (std::size_t k = i + 1; k < hull->vertices.size(); ++k) {
-        add_triangle(mesh, first, 0, i, k);
-      }
-    }
+    const Pose& pose = compound.parts[surface.first].pose;
+    for (const Vec3d& vertex : surface.mesh->vertices) mesh.vertices.push_back(pose(vertex));
+    for (const auto& [a, b, c] : surface.mesh->triangles) add_triangle(mesh, first, a, b, c);
+    std::fill_n(is_of_surface.begin() + surface.first, surface.mesh->triangles.size(), true);
+  }
+  for (std::size_t i = 0; i < compound.parts.size(); ++i) {
+    if (!is_of_surface[i]) add_part(mesh, compound.parts[i]);
   }
   return mesh;
 }

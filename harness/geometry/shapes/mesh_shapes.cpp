@@ -27,6 +27,16 @@ void add_quadrilateral(Mesh& mesh, std::size_t a, std::size_t b, std::size_t c, 
   mesh.triangles.push_back({at(a), at(c), at(d)});
 }
 
+// Splits the cells of a grid of vertices, in rows from the least y up, each from the least x up.
+void add_cells(Mesh& mesh, std::size_t rows, std::size_t columns) {
+  for (std::size_t row = 0; row + 1 < rows; ++row) {
+    for (std::size_t column = 0; column + 1 < columns; ++column) {
+      const std::size_t a = row * columns + column, d = a + columns;
+      add_quadrilateral(mesh, a, a + 1, d + 1, d);
+    }
+  }
+}
+
 // A grid that closes on itself both ways. `point` takes two numbers of turns.
 Mesh closed_grid(std::size_t along, std::size_t across,
                  const std::function<Vec3d(double, double)>& point) {
@@ -149,12 +159,24 @@ Mesh terrain(std::size_t cells, double height, std::uint64_t seed) {
       mesh.vertices.push_back(nearest_float({x, y, z}));
     }
   }
-  for (std::size_t row = 0; row < cells; ++row) {
-    for (std::size_t column = 0; column < cells; ++column) {
-      const std::size_t a = row * (cells + 1) + column, d = a + cells + 1;
-      add_quadrilateral(mesh, a, a + 1, d + 1, d);
+  add_cells(mesh, cells + 1, cells + 1);
+  return mesh;
+}
+
+Mesh height_field(std::size_t rows, std::size_t columns, std::span<const double> heights, double x,
+                  double y) {
+  Mesh mesh;
+  mesh.vertices.reserve(rows * columns);
+  const auto along = [](std::size_t i, std::size_t count, double size) {
+    return (static_cast<double>(i) - static_cast<double>(count - 1) / 2) * size;
+  };
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const double height = heights[(rows - 1 - row) * columns + column];
+      mesh.vertices.emplace_back(along(column, columns, x), along(row, rows, y), height);
     }
   }
+  add_cells(mesh, rows, columns);
   return mesh;
 }
 

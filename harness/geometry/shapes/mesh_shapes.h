@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "harness/geometry/mesh.h"
 
@@ -29,5 +30,11 @@ Mesh gear(std::size_t teeth, double root_radius, double hole_radius, double thic
 // A square of hills over [-1, 1] on x and y, `cells` by `cells` quadrilaterals; heights by
 // octaves of value noise from this seed.
 Mesh terrain(std::size_t cells, double height, std::uint64_t seed);
+
+// A surface over a grid about the origin of x and y, whose cells are `x` by `y` metres. `heights` has rows
+// from the greatest y down, each from the least x up; there are two at least of each. A cell is split
+// along its diagonal from the least x and y to the greatest.
+Mesh height_field(std::size_t rows, std::size_t columns, std::span<const double> heights, double x,
+                  double y);
 
 }  // namespace touchstone::geometry

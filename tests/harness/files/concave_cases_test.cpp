@@ -93,11 +93,30 @@ TEST_F(ConcaveCases, SurfacesInCompoundsAreFlatHullsByTriangle) {
   EXPECT_EQ(c.a.parts[4].shape.radius, 2);
 }
 
+TEST_F(ConcaveCases, SolidsInCompoundsKeepTheirInside) {
+  const std::string solid =
+      R"({"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]],)"
+      R"("triangles":[[0,2,1],[0,1,3],[1,2,3],[0,3,2]],"solid":true},)"
+      R"("translation":[0,0,5]})";
+  const auto c =
+      read(R"({"shape":{"type":"compound","parts":[{"shape":{"type":"sphere","radius":1}},)"
+           R"({"shape":{"type":"compound","parts":[)" +
+           solid + R"(]},"translation":[0,7,0]},{"shape":{"type":"sphere","radius":2}}]}})");
+  ASSERT_EQ(c.a.parts.size(), 6u);
+  ASSERT_EQ(c.a.surfaces.size(), 1u);
+  EXPECT_TRUE(c.a.has_inside());
+  EXPECT_EQ(c.a.surfaces[0].first, 1u);
+  EXPECT_EQ(c.a.surfaces[0].mesh->triangles.size(), 4u);
+  EXPECT_EQ(c.a.parts[4].pose.translation, Vec3d(0, 7, 5));
+  EXPECT_EQ(c.a.parts[5].shape.radius, 2);
+}
+
 TEST_F(ConcaveCases, AreWrittenAsTheyAreRead) {
   for (
       const char* body :
       {R"({"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0.1]],"triangles":[[0,1,2]]},"translation":[1,2,0.3]})",
        R"({"shape":{"type":"compound","parts":[{"shape":{"type":"sphere","radius":0.1},"translation":[0.7,0,0]}]}})",
+       R"({"shape":{"type":"compound","parts":[{"shape":{"type":"sphere","radius":0.1}},{"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0.1]],"triangles":[[0,1,2],[2,1,0]],"solid":true},"translation":[1,2,0.3]},{"shape":{"type":"sphere","radius":0.2}}]}})",
        ball}) {
     const files::ConcaveCase first = read(body);
     const auto cases =
@@ -108,6 +127,7 @@ TEST_F(ConcaveCases, AreWrittenAsTheyAreRead) {
     EXPECT_EQ(again.pose_a.translation, first.pose_a.translation);
     EXPECT_EQ(again.a.part_count(), first.a.part_count());
     EXPECT_EQ(again.a.mesh == nullptr, first.a.mesh == nullptr);
+    EXPECT_EQ(again.a.has_inside(), first.a.has_inside());
     EXPECT_EQ(to_json(again), to_json(first));
   }
 }
@@ -156,8 +176,8 @@ TEST_F(ConcaveCases, Faults) {
               HasSubstr("a.shape.parts[0]: no \"shape\""));
   EXPECT_THAT(
       error(
-          R"({"type":"compound","parts":[{"shape":{"type":"mesh","vertices":[],"triangles":[],"solid":true}}]})"),
-      HasSubstr("found a solid mesh in a compound"));
+          R"({"type":"compound","parts":[{"shape":{"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0]],"triangles":[[0,1,2]],"solid":true}}]})"),
+      HasSubstr("a.shape.parts[0].shape: \"solid\" is true, and the surface is open"));
   EXPECT_THAT(error(R"({"type":"teapot"})"), HasSubstr("found \"teapot\""));
 }
 

@@ -122,13 +122,44 @@ parts = [
   EXPECT_GE(any.max[2], 1 + 4.25f - 1e-5f);
 }
 
+TEST(ConcaveScene, CompoundsTakeMeshes) {
+  const TemporaryFolder folder;
+  folder.write("two.obj", two_parts);
+  const auto load = [&](const std::string& as) {
+    return scene::load_scene(
+        folder.write("scene.toml",
+                     "body = [{shape = {type = \"compound\", parts = [\n"
+                     "{shape = {type = \"sphere\", radius = 1}},\n"
+                     "{translation = [0, 9, 0], shape = {mesh = \"two.obj\", as = \"" +
+                         as + "\"}}]}}]\n"));
+  };
+  const scene::Scene solid = load("solid"), surface = load("surface");
+  const ConcaveBody& body = *solid.concave_of(0);
+  ASSERT_EQ(body.parts.size(), 9u);
+  ASSERT_EQ(body.surfaces.size(), 1u);
+  EXPECT_EQ(body.surfaces[0].first, 1u);
+  EXPECT_EQ(body.parts[8].pose.translation, Vec3d(0, 9, 0));
+  EXPECT_TRUE(body.has_inside());
+  EXPECT_FALSE(surface.concave_of(0)->has_inside());
+  EXPECT_NE(scene_hash(solid), scene_hash(surface));
+  // The mesh is there as it is, and closed.
+  const geometry::Mesh& mesh = *solid.mesh_of(0);
+  EXPECT_FALSE(geometry::open_edge(mesh.vertices, mesh.triangles));
+  EXPECT_EQ(mesh.vertices.front(), Vec3d(0, 9, 0));
+  // The hulls of its two parts, and its own.
+  EXPECT_EQ(load("compound").concave_of(0)->parts.size(), 3u);
+  EXPECT_TRUE(load("compound").concave_of(0)->surfaces.empty());
+  EXPECT_EQ(load("hull").concave_of(0)->parts.size(), 2u);
+}
+
 TEST(ConcaveScene, FaultsAreNamed) {
   EXPECT_THAT(fault("body = [{mesh = \"open.obj\", as = \"solid\"}]"),
               AllOf(HasSubstr("surface is open at the edge"), HasSubstr("scene.toml:1")));
   EXPECT_THAT(fault("body = [{shape = {type = \"compound\", parts = []}}]"), HasSubstr("parts"));
   EXPECT_THAT(
-      fault("body = [{shape = {type = \"compound\", parts = [{shape = {type = \"torus\"}}]}}]"),
-      HasSubstr("not convex, and in a compound"));
+      fault("body = [{shape = {type = \"compound\", parts = [{shape = {mesh = \"open.obj\", "
+            "as = \"solid\"}}]}}]"),
+      AllOf(HasSubstr("surface is open at the edge"), HasSubstr("scene.toml:1")));
   EXPECT_THAT(fault("body = [{shape = {type = \"gear\", root_radius = 0.2}}]"),
               HasSubstr("less than root_radius"));
   EXPECT_THAT(fault("body = [{mesh = \"open.obj\", as = \"ball\"}]"),

@@ -1,17 +1,17 @@
 // Draws pairs of triangles, meshes, compounds and convex bodies.
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "algorithms/core/bounds.h"
-#include "harness/check/kinds/blocks/drawn_cases.h"
+#include "harness/check/kinds/blocks/drawn_concave.h"
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/families/triangle_pairs.h"
+#include "harness/geometry/shapes/compound.h"
 
 namespace touchstone::check {
 namespace {
@@ -23,10 +23,6 @@ ConcaveBody body_of(TriangleMesh mesh) {
   return {std::make_shared<const TriangleMesh>(std::move(mesh)), {}};
 }
 ConcaveBody body_of(Shape shape) { return {nullptr, {{std::move(shape), {}, 0}}}; }
-
-ConcaveBody triangle_body(const std::array<Vec3d, 3>& corners) {
-  return body_of(TriangleMesh{{corners.begin(), corners.end()}, {{0, 1, 2}}, false});
-}
 
 ConcaveCase triangles(const families::TriangleFamily& family, Draws& draws, std::uint64_t index) {
   const auto form = families::all_triangle_forms[index % families::all_triangle_forms.size()];
@@ -166,6 +162,52 @@ ConcaveCase compounds(Draws& draws, std::uint64_t index) {
   return c;
 }
 
+// Anything in, across or outside of a compound that has solid meshes among its parts.
+ConcaveCase solid_parts(Draws& draws, std::uint64_t index) {
+  const auto add = [](TriangleMesh mesh, const Vec3d& at, std::span<const Pose> around,
+                      ConcaveBody& to) {
+    geometry::add_surface(std::make_shared<const TriangleMesh>(std::move(mesh)),
+                          {Mat3d::Identity(), at}, around, to);
+  };
+  const auto is_solid = [&] { return draws.below(4) != 0; };
+  const auto quarter = [&] { return draws.below(13) / 4.0 - 1.5; };
+  ConcaveCase c;
+  // Within a turned pose places are rounded.
+  std::vector<Pose> around;
+  if (index % 4 == 3) around.push_back(any_pose(draws, 0.5));
+  add(index % 2 == 0 ? families::torus(8, 4, 1, 0.5, is_solid())
+                     : families::box_mesh(1, 1, 1, is_solid()),
+      {0, 0, 0}, around, c.a);
+  add(families::box_mesh(0.25, 0.5, 0.25, is_solid()), {0, 2.5, 0}, around, c.a);
+  const Shape ball = families::round_shape(ShapeKind::sphere, 0.125, 0);
+  switch (index % 5) {
+    case 0: c.b = body_of(ball); break;
+    case 1: c.b = body_of(families::box_mesh(0.125, 0.125, 0.125)); break;
+    case 2:
+      c.b.parts.push_back({ball, {Mat3d::Identity(), {0, -1.5, 0}}, 0});
+      add(families::box_mesh(0.125, 0.125, 0.125), {0, 0, 0}, {}, c.b);
+      break;
+    case 3:
+      // Large enough to hold a part of the other.
+      add(families::box_mesh(0.75, 1.5, 0.75, is_solid()), {0, 0, 0}, {}, c.b);
+      break;
+    default: {
+      Shape& floor = c.b.parts.emplace_back().shape;
+      floor.kind = ShapeKind::halfspace;
+      floor.normal = draws.direction();
+      break;
+    }
+  }
+  const double x = quarter(), y = quarter() + draws.below(2);
+  c.pose_b.translation = {x, 1.5 * y, quarter()};
+  if (index % 7 == 0) c.pose_b.rotation = draws.rotation();
+  if (draws.below(2) == 0) {
+    std::swap(c.a, c.b);
+    std::swap(c.pose_a, c.pose_b);
+  }
+  return c;
+}
+
 // A mesh of 10^9 times the other's size, at one of its vertices.
 ConcaveCase sizes(Draws& draws, std::uint64_t index) {
   ConcaveCase c;
@@ -180,53 +222,7 @@ ConcaveCase sizes(Draws& draws, std::uint64_t index) {
   return c;
 }
 
-ConcaveCase plain(const families::TrianglePair& pair) {
-  ConcaveCase c;
-  c.a = triangle_body(pair.a);
-  c.b = triangle_body(pair.b);
-  return c;
-}
-
-// Triangles that share a point on a grid, at a distance from the origin that may round them.
-ConcaveCase far_triangles(double distance, Draws& draws) {
-  const auto& all = families::triangle_families();
-  families::TrianglePair pair = all[draws.below(2) == 0 ? 4 : 5].draw(draws);
-  const Vec3d away = distance * draws.direction();
-  for (auto* corners : {&pair.a, &pair.b}) {
-    for (Vec3d& corner : *corners) corner += away;
-  }
-  return plain(pair);
-}
-
-void add_axes(std::vector<DrawnFamily<ConcaveCase>>& list) {
-  const auto add = [&](const char* axis, int first, int last, const auto& draw) {
-    for (const AxisValue& at : decades(first, last)) {
-      list.push_back(
-          {fmt::format("{}-{}", axis, at.name), "axes", 1,
-           [draw, size = at.value](Draws& draws, std::uint64_t) { return draw(size, draws); }, axis,
-           at.name});
-    }
-  };
-  const auto sized = [](families::TrianglePair (*make)(Draws&, double)) {
-    return [make](double size, Draws& draws) { return plain(make(draws, size)); };
-  };
-  add("edge-gap", -1, -17, sized(families::edges_near));
-  add("face-gap", -1, -17, sized(families::vertex_near_face));
-  add("sliver-width", -1, -17, sized(families::slivers));
-  add("plane-angle", -1, -17, sized(families::parallel_planes));
-  add("mesh-distance", 0, 15, far_triangles);
-}
-
 }  // namespace
-
-std::vector<AxisValue> decades(int first, int last) {
-  std::vector<AxisValue> values;
-  for (int e = first;; e += first < last ? 1 : -1) {
-    const std::string name = fmt::format("1e{}", e);
-    values.push_back({name, std::stod(name)});
-    if (e == last) return values;
-  }
-}
 
 std::span<const DrawnFamily<ConcaveCase>> concave_families() {
   static const auto all = [] {
@@ -260,7 +256,9 @@ std::span<const DrawnFamily<ConcaveCase>> concave_families() {
     add("bodies-solid", 1, solids);
     add("bodies-compounds", 2, compounds);
     add("bodies-sizes", 4, sizes);
-    add_axes(list);
+    add_concave_axes(list);
+    // Cases depend on the number of their family, so that new ones come last.
+    add("bodies-solid-parts", 1, solid_parts);
     return list;
   }();
   return all;

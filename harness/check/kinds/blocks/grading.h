@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include "algorithms/core/status.h"
+#include "algorithms/ray_cast.h"
 #include "harness/check/kinds/case_block.h"
 #include "harness/families/draws.h"
 #include "harness/process/isolate.h"
@@ -39,6 +41,9 @@ inline std::optional<CaseGrade> grade_of_verdict(bool contact, bool truth) {
 inline process::IsolationLimits block_limits(double time_limit) {
   return {.item_seconds = time_limit, .failures = 20};
 }
+
+// Writes a file of one ray for `touchstone rays`.
+void write_ray(const std::filesystem::path& file, const Ray& ray);
 
 // The places of the cases that a form is asked for: every fifth, or all as they are drawn.
 inline bool is_asked(CaseForm form, std::uint64_t index) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <filesystem>
 #include <vector>
 
 #include "harness/check/kinds/blocks/exact_forms.h"
@@ -45,8 +44,5 @@ inline std::optional<TriangleMesh> moved_mesh(TriangleMesh mesh, const FormNumbe
   }
   return mesh;
 }
-
-// Writes the mesh so that it is read with the same bits, in the format OFF.
-void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh);
 
 }  // namespace touchstone::check

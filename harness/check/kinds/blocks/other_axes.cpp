@@ -11,6 +11,14 @@ std::vector<AxisPlace<double>> ray_axis() {
   return places;
 }
 
+std::vector<AxisPlace<double>> scene_ray_axis() {
+  std::vector<AxisPlace<double>> places;
+  for (const AxisValue& at : decades(0, 15)) {
+    places.push_back({"scene-ray-distance", at.name, at.value});
+  }
+  return places;
+}
+
 std::vector<AxisPlace<double>> point_axis() {
   std::vector<AxisPlace<double>> places;
   for (const AxisValue& at : decades(0, -17)) places.push_back({"point-gap", at.name, at.value});

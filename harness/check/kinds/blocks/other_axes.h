@@ -15,8 +15,9 @@ struct AxisPlace {
   Of of;
 };
 
-std::vector<AxisPlace<double>> ray_axis();    // from how far rays are cast
-std::vector<AxisPlace<double>> point_axis();  // how far points are from the surface
+std::vector<AxisPlace<double>> ray_axis();        // from how far rays are cast
+std::vector<AxisPlace<double>> scene_ray_axis();  // from how far they are cast at scenes
+std::vector<AxisPlace<double>> point_axis();      // how far points are from the surface
 std::vector<AxisPlace<families::CcdFamily>> ccd_axes();
 
 }  // namespace touchstone::check

@@ -12,6 +12,7 @@
 #include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/tried_points.h"
 #include "harness/files/text_file.h"
+#include "harness/scene/writing/scene_writer.h"
 
 namespace touchstone::check {
 namespace {
@@ -70,7 +71,7 @@ class PointBlock final : public CaseBlock {
 
   std::string write(const Contestant& contestant, std::size_t place,
                     const std::filesystem::path& stem) const override {
-    write_mesh(stem.string() + ".off", points_.mesh(place));
+    scene::write_off(stem.string() + ".off", points_.mesh(place));
     const Vec3d& p = points_[place];
     files::write_text(stem.string() + ".csv",
                       fmt::format("x,y,z\n{},{},{}\n", p.x(), p.y(), p.z()));

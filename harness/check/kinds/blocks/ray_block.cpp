@@ -13,7 +13,7 @@
 #include "harness/check/kinds/blocks/mesh_cases.h"
 #include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/aimed_rays.h"
-#include "harness/files/text_file.h"
+#include "harness/scene/writing/scene_writer.h"
 
 namespace touchstone::check {
 namespace {
@@ -68,13 +68,8 @@ class RayBlock final : public CaseBlock {
   std::string write(const Contestant& contestant, std::size_t place,
                     const std::filesystem::path& stem) const override {
     const std::string mesh = stem.string() + ".off", rays = stem.string() + ".csv";
-    write_mesh(mesh, rays_.mesh(place));
-    const Ray& ray = rays_[place];
-    const auto& [o, d] = std::pair(ray.origin, ray.direction);
-    files::write_text(rays,
-                      fmt::format("origin_x,origin_y,origin_z,direction_x,direction_y,direction_z,"
-                                  "t_max\n{},{},{},{},{},{},{}\n",
-                                  o.x(), o.y(), o.z(), d.x(), d.y(), d.z(), ray.t_max));
+    scene::write_off(mesh, rays_.mesh(place));
+    write_ray(rays, rays_[place]);
     return fmt::format(
         "touchstone rays {} --rays {} --cast exact,{} --task {} --scalar {} --out hits.csv", mesh,
         rays, contestant.info().name, contestant.task_name(), to_string(contestant.scalar));

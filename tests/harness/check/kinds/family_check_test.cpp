@@ -14,6 +14,7 @@
 #include "harness/files/concave/concave_cases.h"
 #include "harness/files/motion/ccd_queries.h"
 #include "harness/geometry/mesh.h"
+#include "harness/scene/scene.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/harness/check/kinds/planted_kinds.h"
 #include "tests/harness/input_fault.h"
@@ -29,12 +30,13 @@ using check::FamilyCount;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 // A family of each kind, in which both outcomes are common.
 std::vector<const check::CaseFamily*> some_families() {
   std::vector<const check::CaseFamily*> some;
   for (const char* name : {"triangles-generic", "rays-random", "points-off-1e-3", "casts-on-a-grid",
-                           "vertex-face-small-grid-1"}) {
+                           "vertex-face-small-grid-1", "scene-rays-short"}) {
     for (const check::CaseFamily& family : check::case_families()) {
       if (family.name == name) some.push_back(&family);
     }
@@ -122,12 +124,15 @@ TEST_F(FamilyCheck, CaseFilesHaveTheCase) {
   const auto request = request_for(planted.contestants());
   const auto result = check::run_check(request);
   const std::filesystem::path failures = request.out / "failures";
-  int concave = 0, casts = 0, ccd = 0, meshes = 0;
+  int concave = 0, casts = 0, ccd = 0, meshes = 0, scenes = 0;
   for (const auto& file : std::filesystem::directory_iterator(failures)) {
     const std::string name = file.path().filename().string();
     if (name.ends_with(".off")) {
       EXPECT_FALSE(geometry::read_mesh(file.path()).triangles.empty());
       ++meshes;
+    } else if (name.ends_with(".toml")) {
+      EXPECT_GT(scene::load_scene(file.path()).bodies.size(), 10u);
+      ++scenes;
     } else if (name.starts_with("concave")) {
       const auto cases = files::read_concave_cases(file.path());
       ASSERT_EQ(cases.size(), 1u);
@@ -147,7 +152,7 @@ TEST_F(FamilyCheck, CaseFilesHaveTheCase) {
       ++ccd;
     }
   }
-  EXPECT_GE(std::min({concave, casts, ccd, meshes}), 1);
+  EXPECT_GE(std::min({concave, casts, ccd, meshes, scenes}), 1);
 }
 
 TEST_F(FamilyCheck, GoesOnWhereItWasStopped) {
@@ -174,9 +179,9 @@ TEST_F(FamilyCheck, GoesOnWhereItWasStopped) {
 TEST_F(FamilyCheck, SoaksCountThousandsOfThem) {
   const PlantedKinds<Habit::no> planted;
   auto request = request_for<check::SoakRequest>(planted.contestants());
-  request.pairs = 5000;
+  request.pairs = 6000;
   const check::SoakResult result = check::run_soak(request);
-  EXPECT_EQ(result.drawn, 5000);
+  EXPECT_EQ(result.drawn, 6000);
   for (const FamilyCount& count : sums(result.families)) {
     EXPECT_EQ(count.cases, 1000);
     EXPECT_GT(count.missed, 0);
@@ -185,8 +190,51 @@ TEST_F(FamilyCheck, SoaksCountThousandsOfThem) {
   EXPECT_TRUE(result.ours_are_wrong(request));
 }
 
+TEST_F(FamilyCheck, AnotherBodyOrLengthThanTheFirstIsWrong) {
+  const SceneRayCastEntry astray{.info = {.name = "astray", .citation = "none"},
+                                 .tasks = {RayTask::closest},
+                                 .make = [] { return std::make_unique<AstraySceneRays>(); }};
+  auto request = request_for({{&astray, Precision::float64, 0}});
+  request.cases = 100;
+  const auto result = check::run_check(request);
+  const FamilyCount count = sums(result->tally.families())[0];
+  EXPECT_EQ(count.cases, 100);
+  EXPECT_GT(count.wrong, 20);
+  EXPECT_LE(count.right, count.cases - count.contacts);
+  EXPECT_EQ(count.missed + count.false_hits + count.near, 0);
+  EXPECT_THAT(result->report.ours_wrong(), Not(IsEmpty()));
+}
+
+// What is counted of rays at scenes does not depend on how many processes count.
+TEST_F(FamilyCheck, TwoWorkersCountAsOne) {
+  check::CheckRequest request;
+  request.scalars = {Precision::float64};
+  request.contestants = contestants(CaseKind::scene_rays, {"ours"}, request.scalars);
+  for (const check::CaseFamily& family : check::case_families()) {
+    if (family.kind == CaseKind::scene_rays) request.families.push_back(&family);
+  }
+  request.cases = 50;
+  std::array<std::string, 2> counted;
+  for (const int workers : {1, 2}) {
+    request.workers = workers;
+    request.out = folder.path() / std::to_string(workers);
+    const auto result = check::run_check(request);
+    EXPECT_THAT(result->report.ours_wrong(), IsEmpty());
+    std::int64_t hits = 0, misses = 0;
+    for (const auto& [key, count] : result->tally.families()) {
+      hits += count.contacts;
+      misses += count.cases - count.contacts;
+    }
+    EXPECT_GT(hits, 20);
+    EXPECT_GT(misses, 20);
+    counted[static_cast<std::size_t>(workers - 1)] =
+        folder.read(std::to_string(workers) + "/families.csv");
+  }
+  EXPECT_EQ(counted[0], counted[1]);
+}
+
 TEST(CaseFamilies, TheExactAnswersAgreeInEveryForm) {
-  std::array<std::int64_t, 5> contacts{}, apart{};
+  std::array<std::int64_t, check::all_case_kinds.size()> contacts{}, apart{};
   std::map<CaseForm, std::int64_t> asked;
   const std::array scalars = {Precision::float64};
   for (const check::CaseFamily& family : check::case_families()) {

@@ -49,6 +49,41 @@ struct PlantedPoints final : PointQuery {
 };
 
 template <Habit habit>
+struct PlantedSceneRays final : SceneRayCast {
+  void bind(std::span<const SceneBody>) override {}
+  void place(std::span<const Pose>) override {}
+  void cast(RayTask, std::span<const Ray>, std::span<SceneRayHit> hits) override {
+    for (SceneRayHit& hit : hits) {
+      hit = {.hit = habit == Habit::yes, .status = status_of_habit<habit>()};
+      if (hit.hit) hit.body = 0;
+    }
+  }
+};
+
+// Tells another body, or another length, than the first.
+struct AstraySceneRays final : SceneRayCast {
+  std::unique_ptr<SceneRayCast> exact = find_scene_ray_cast("exact")->make();
+  std::uint32_t bodies = 0;
+
+  void bind(std::span<const SceneBody> all) override {
+    bodies = static_cast<std::uint32_t>(all.size());
+    exact->bind(all);
+  }
+  void place(std::span<const Pose> poses) override { exact->place(poses); }
+  void cast(RayTask task, std::span<const Ray> rays, std::span<SceneRayHit> hits) override {
+    exact->cast(task, rays, hits);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (!hits[i].hit) continue;
+      if (i % 2 == 0) {
+        hits[i].body = (hits[i].body + 1) % bodies;
+      } else {
+        hits[i].t += 1e-4 / rays[i].direction.norm();
+      }
+    }
+  }
+};
+
+template <Habit habit>
 struct PlantedCast final : Cast {
   void bind(std::span<const Shape>) override {}
   void solve(const CastBatch&, std::span<CastOutcome> outcomes) override {
@@ -96,13 +131,14 @@ struct PlantedKinds {
                  .make = [](const auto&) { return std::make_unique<PlantedCast<habit>>(); }};
   CcdEntry ccd{.info = concave.info,
                .make = [](const auto&) { return std::make_unique<PlantedCcd<habit>>(); }};
+  SceneRayCastEntry scene_rays{.info = concave.info, .tasks = {RayTask::any}, .make = [] {
+                                 return std::make_unique<PlantedSceneRays<habit>>();
+                               }};
 
   std::vector<check::Contestant> contestants() const {
-    return {{&concave, Precision::float64, 0},
-            {&rays, Precision::float64, 1},
-            {&points, Precision::float64, 1},
-            {&cast, Precision::float64, 0},
-            {&ccd, Precision::float64, 0}};
+    return {{&concave, Precision::float64, 0}, {&rays, Precision::float64, 1},
+            {&points, Precision::float64, 1},  {&cast, Precision::float64, 0},
+            {&ccd, Precision::float64, 0},     {&scene_rays, Precision::float64, 1}};
   }
 };
 
