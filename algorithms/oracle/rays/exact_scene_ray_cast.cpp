@@ -6,13 +6,14 @@
 //             in them.
 //          3. For each other convex part that is left, a power of two times the direction is a displacement
 //             that passes it; a point moves by it, and the oracle of casts says when they first touch.
-//          4. Times of convex parts are compared by their brackets.
+//          4. Times of convex parts are brackets. A hit whose bracket is before all others' is the first.
 // Departs: it shares no code with the algorithms that it judges.
 // Fails:   triangles and half-spaces are exact; spheres, capsules, boxes and hulls are but for the time,
-//          which is within 2^-80 of the displacement; the others have an enclosure. A half-space whose
-//          matrix has no inverse makes each ray `not_converged`. Where a bracket does not tell whether a hit is within t_max, or the oracle of casts does
-//          not know, the status is `not_converged`. Normals are not given. Of parts that are hit at
-//          one time, the first is reported. Poses of parts within bodies are multiplied in doubles.
+//          which is within 2^-80 of the displacement; the others have an enclosure. Where brackets do not tell
+//          which hit is first or whether one is within t_max, or the oracle of casts does not know, the status is
+//          `not_converged`; so it is for each ray where the matrix of a half-space has no inverse. Normals are not
+//          given. Of parts that are hit at one time, the first is reported. Poses of parts within bodies are
+//          multiplied in doubles.
 // Cost:    O(log n) a ray where parts are small, some microseconds for each triangle and a tenth of a
 //          millisecond for each convex part that may be hit; O(n) memory.
 #include <algorithm>
@@ -150,12 +151,42 @@ class ExactSceneCast final : public SceneRayCast {
     asked_.insert(asked_.end(), unbounded_.begin(), unbounded_.end());
     std::ranges::sort(asked_);
     asked_.erase(std::ranges::unique(asked_).begin(), asked_.end());
-    double best_upper = 0;  // a bound on the best's t
-    ask_flat_parts(ray, best, best_upper);
+    hits_.clear();
+    ask_flat_parts(ray, best.status);
     for (const std::uint32_t i : asked_) {
-      if (!is_flat(parts_[i])) ask_convex(ray, i, best, best_upper);
+      if (!is_flat(parts_[i])) ask_convex(ray, i);
     }
+    take_first(best);
     return best;
+  }
+
+  // A part that the ray is first in at a time of this bracket; or perhaps is, and not before `lower`.
+  struct PartHit {
+    std::uint32_t part = 0;
+    double lower = 0, upper = HUGE_VAL, t = 0;
+    bool is_certain = true;
+
+    // At one time the part with the lesser number is first.
+    bool is_before(const PartHit& other) const {
+      return upper < other.lower || (upper <= other.lower && part < other.part);
+    }
+  };
+
+  // Takes the hit that is certain and proven to be before all others.
+  void take_first(SceneRayHit& best) const {
+    const PartHit* first = nullptr;
+    for (const PartHit& hit : hits_) {
+      if (hit.is_certain && (first == nullptr || hit.t < first->t)) first = &hit;
+    }
+    const auto is_behind = [&](const PartHit& hit) {
+      return first != nullptr && (&hit == first || first->is_before(hit));
+    };
+    if (!std::ranges::all_of(hits_, is_behind)) best.status = Status::not_converged;
+    if (first == nullptr) return;
+    best.hit = true;
+    best.body = parts_[first->part].body;
+    best.part = parts_[first->part].part;
+    best.t = first->t;
   }
 
   bool is_flat(const Part& part) const {
@@ -176,46 +207,41 @@ class ExactSceneCast final : public SceneRayCast {
     return {};
   }
 
-  void ask_flat_parts(const Ray& ray, SceneRayHit& best, double& best_upper) const {
+  void ask_flat_parts(const Ray& ray, Status& status) {
     std::optional<oracle::RayPoint> first;
+    PartHit hit;
     for (const std::uint32_t i : asked_) {
       const Part& part = parts_[i];
       if (!is_flat(part)) continue;
-      auto point = first_point(ray, part, best.status);
+      auto point = first_point(ray, part, status);
       if (!point) continue;
       if (std::isfinite(ray.t_max) && compare_t(*point, ray.t_max) > 0) continue;
       if (first && compare_t(*point, *first) >= 0) continue;
       first = std::move(point);
-      best.body = part.body;
-      best.part = part.part;
+      hit.part = i;
     }
     if (!first) return;
-    best.hit = true;
-    best.t = oracle::quotient(first->top, first->bottom);
-    best_upper = std::nextafter(best.t, HUGE_VAL);
+    hit.t = oracle::quotient(first->top, first->bottom);
+    const int side = compare_t(*first, hit.t);
+    hit.lower = side < 0 ? std::nextafter(hit.t, -HUGE_VAL) : hit.t;
+    hit.upper = side > 0 ? std::nextafter(hit.t, HUGE_VAL) : hit.t;
+    hits_.push_back(hit);
   }
 
-  void ask_convex(const Ray& ray, std::uint32_t number, SceneRayHit& best, double& best_upper) {
+  void ask_convex(const Ray& ray, std::uint32_t number) {
     const Part& part = parts_[number];
     const double length = length_past(ray, shapes_[part.shape], poses_[part.shape]);
     const CastOutcome outcome = cast_at(ray, length, part.shape);
     if (outcome.answer == CastAnswer::miss) return;
-    if (outcome.answer == CastAnswer::unknown) {
-      best.status = Status::not_converged;
-      return;
+    PartHit hit{number, 0, HUGE_VAL, 0, false};
+    if (outcome.lower > 0) hit.lower = outcome.lower * length;
+    if (hit.lower > ray.t_max) return;
+    if (outcome.answer == CastAnswer::hit && outcome.upper * length <= ray.t_max) {
+      hit.upper = outcome.upper * length;
+      hit.t = outcome.toi * length;
+      hit.is_certain = true;
     }
-    const double lower = outcome.lower * length, upper = outcome.upper * length;
-    if (lower > ray.t_max) return;
-    if (upper > ray.t_max) {
-      best.status = Status::not_converged;
-      return;
-    }
-    if (best.hit && lower >= best_upper) return;
-    best.hit = true;
-    best.body = part.body;
-    best.part = part.part;
-    best.t = outcome.toi * length;
-    best_upper = upper;
+    hits_.push_back(hit);
   }
 
   // The point that the ray moves against a part that rests.
@@ -245,6 +271,7 @@ class ExactSceneCast final : public SceneRayCast {
   oracle::BoxTree tree_;                  // over the boxes of the parts
   std::vector<std::uint32_t> unbounded_;  // parts without one
   std::vector<std::uint32_t> asked_;      // of the ray at hand, in the parts' order
+  std::vector<PartHit> hits_;             // of the ray at hand
 };
 
 }  // namespace

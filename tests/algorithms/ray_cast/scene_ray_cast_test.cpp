@@ -205,6 +205,30 @@ TEST(SceneRayCasts, AtWholeScenesAreAsTheOracleSays) {
 }
 
 // Two threads, each with an instance of its own, give what one gives, to the last bit.
+// A curved body's time is an enclosure: where another body's is within it, nobody says which one is first.
+TEST(SceneRayCasts, TheOracleDoesNotGuessWhichBodyIsFirst) {
+  Shape box, cylinder, ground;
+  box.kind = ShapeKind::box;
+  cylinder.kind = ShapeKind::cylinder;
+  cylinder.radius = cylinder.half_length = 1;
+  ground.kind = ShapeKind::halfspace;
+  ground.normal = Vec3d::UnitZ();
+  ground.offset = -50;
+  const std::vector<Ray> down = {{.origin = {0, 0, 10}, .direction = {0, 0, -1}}};
+  for (const double higher : {1e-13, 1e-11, 1e-3, 0.0, -1e-3}) {
+    box.half_extents = {1, 1, 1 + higher};
+    const std::vector<SceneBody> bodies = {body_of(box, {}), body_of(cylinder, {}),
+                                           body_of(ground, {})};
+    const SceneRayHit hit = cast_by("exact", RayTask::closest, bodies, down)[0];
+    if (std::abs(higher) == 1e-3) {
+      EXPECT_EQ(hit.status, Status::ok);
+    }
+    if (hit.status != Status::ok) continue;
+    EXPECT_TRUE(hit.hit);
+    EXPECT_EQ(hit.body, higher >= 0 ? 0u : 1u) << higher;
+  }
+}
+
 TEST(SceneRayCasts, TwoThreadsAnswerAsOne) {
   families::RandomDraws draws(13);
   const auto bodies = families::bodies_of(families::RayScene::mixed, draws);
