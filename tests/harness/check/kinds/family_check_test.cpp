@@ -30,7 +30,6 @@ using check::FamilyCount;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 
 // A family of each kind, in which both outcomes are common.
 std::vector<const check::CaseFamily*> some_families() {
@@ -188,49 +187,6 @@ TEST_F(FamilyCheck, SoaksCountThousandsOfThem) {
     EXPECT_GT(count.right, 0);
   }
   EXPECT_TRUE(result.ours_are_wrong(request));
-}
-
-TEST_F(FamilyCheck, AnotherBodyOrLengthThanTheFirstIsWrong) {
-  const SceneRayCastEntry astray{.info = {.name = "astray", .citation = "none"},
-                                 .tasks = {RayTask::closest},
-                                 .make = [] { return std::make_unique<AstraySceneRays>(); }};
-  auto request = request_for({{&astray, Precision::float64, 0}});
-  request.cases = 100;
-  const auto result = check::run_check(request);
-  const FamilyCount count = sums(result->tally.families())[0];
-  EXPECT_EQ(count.cases, 100);
-  EXPECT_GT(count.wrong, 20);
-  EXPECT_LE(count.right, count.cases - count.contacts);
-  EXPECT_EQ(count.missed + count.false_hits + count.near, 0);
-  EXPECT_THAT(result->report.ours_wrong(), Not(IsEmpty()));
-}
-
-// What is counted of rays at scenes does not depend on how many processes count.
-TEST_F(FamilyCheck, TwoWorkersCountAsOne) {
-  check::CheckRequest request;
-  request.scalars = {Precision::float64};
-  request.contestants = contestants(CaseKind::scene_rays, {"ours"}, request.scalars);
-  for (const check::CaseFamily& family : check::case_families()) {
-    if (family.kind == CaseKind::scene_rays) request.families.push_back(&family);
-  }
-  request.cases = 50;
-  std::array<std::string, 2> counted;
-  for (const int workers : {1, 2}) {
-    request.workers = workers;
-    request.out = folder.path() / std::to_string(workers);
-    const auto result = check::run_check(request);
-    EXPECT_THAT(result->report.ours_wrong(), IsEmpty());
-    std::int64_t hits = 0, misses = 0;
-    for (const auto& [key, count] : result->tally.families()) {
-      hits += count.contacts;
-      misses += count.cases - count.contacts;
-    }
-    EXPECT_GT(hits, 20);
-    EXPECT_GT(misses, 20);
-    counted[static_cast<std::size_t>(workers - 1)] =
-        folder.read(std::to_string(workers) + "/families.csv");
-  }
-  EXPECT_EQ(counted[0], counted[1]);
 }
 
 TEST(CaseFamilies, TheExactAnswersAgreeInEveryForm) {
