@@ -122,8 +122,8 @@ void print(const scene::Scene& scene, const std::vector<proxies::Representation>
 
 void run(const RepresentOptions& options) {
   const std::vector<proxies::Representation> list = representations(options);
-  files::check_output(options.out);
   const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
+  files::check_outputs(scene.inputs(), std::vector<files::NamedFile>{{"--out", options.out}});
   std::map<std::uint32_t, std::size_t> bodies;
   for (const scene::Body& body : scene.bodies) ++bodies[body.shape];
   if (bodies.empty()) {
