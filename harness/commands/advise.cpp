@@ -32,6 +32,8 @@ int advise(const trade::AdviceTask& task, const std::filesystem::path& folder, i
            trade::VerificationRows* rows) {
   const trade::Representing ours = representing();
   trade::TradeScene scene(task.request, ours);
+  files::expect_other_files(scene.scene.inputs(),
+                            std::vector<files::NamedFile>{{"--out", folder / "advice.toml"}});
   std::filesystem::create_directories(folder);
   const trade::AdviceProblem problem{task.request, scene, ours, task.budget, say};
   const trade::Advice advice = trade::advise(problem);

@@ -95,6 +95,7 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene,
 
 void draw(const DrawOptions& options) {
   const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
+  files::check_outputs(scene.inputs(), std::vector<files::NamedFile>{{"--out", options.out}});
   if (options.frame < 0 || options.frame >= scene.frames) {
     throw base::InputError(fmt::format("--frame {}: {} has frames 0 to {}", options.frame,
                                        options.scene, scene.frames - 1));

@@ -66,6 +66,7 @@ void record(const RecordOptions& options) {
                            "; expected a name ending in .aabbs or .csv");
   }
   const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
+  files::check_outputs(scene.inputs(), std::vector<files::NamedFile>{{"--out", options.out}});
   if (!csv && scene.motion.churn > 0) {
     throw base::InputError(
         options.scene, 0,

@@ -78,6 +78,7 @@ files::OrderedJson origins() {
 
 report::RecordingRequest recording_request(const ReportOptions& options) {
   report::RecordingRequest request;
+  request.page = options.out;
   request.overrides = options.overrides;
   request.most_frames = options.frames;
   request.time_limit = options.time_limit;
@@ -151,7 +152,9 @@ void make_report(const ReportOptions& options) {
     throw base::InputError("nothing to report; expected folders of results, or --scene SCENE");
   }
   const std::string page = built_page(options);
-  files::check_output(options.out);
+  std::vector<files::NamedFile> inputs;
+  for (const std::string& scene : options.scenes) inputs.push_back({"--scene", scene});
+  files::check_outputs(inputs, std::vector<files::NamedFile>{{"--out", options.out}});
   const report::RecordingRequest recording = recording_request(options);
   files::OrderedJson results = files::OrderedJson::array(), scenes = files::OrderedJson::array();
   for (const report::ResultsRequest& request : results_requests(options)) {

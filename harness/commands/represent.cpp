@@ -56,9 +56,16 @@ struct Measured {
   std::string words;  // the reason of a failure
 };
 
-Measured measure(const Shape& shape, const geometry::Mesh* mesh, const proxies::Representation& r) {
+// `is_convex` is false of a body for which the shape is only a hull around it.
+Measured measure(const Shape& shape, const geometry::Mesh* mesh, bool is_convex,
+                 const proxies::Representation& r) {
   Measured m;
   try {
+    if (!is_convex && r.form == proxies::Form::as_given) {
+      throw base::InputError(
+          "as given, the body is not convex, and convex parts stand for it only in another form; "
+          "expected hull, parts or mesh");
+    }
     const auto start = std::chrono::steady_clock::now();
     const std::vector<proxies::Part> parts = proxies::represent(shape, mesh, r);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
@@ -120,10 +127,11 @@ void print(const scene::Scene& scene, const std::vector<proxies::Representation>
       scene.name, table.text(base::page_width()));
 }
 
-void run(const RepresentOptions& options) {
+// Returns false if a shape has none of a form.
+bool run(const RepresentOptions& options) {
   const std::vector<proxies::Representation> list = representations(options);
-  files::check_output(options.out);
   const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
+  files::check_outputs(scene.inputs(), std::vector<files::NamedFile>{{"--out", options.out}});
   std::map<std::uint32_t, std::size_t> bodies;
   for (const scene::Body& body : scene.bodies) ++bodies[body.shape];
   if (bodies.empty()) {
@@ -139,7 +147,7 @@ void run(const RepresentOptions& options) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Shape& given = scene.shapes[shape];
       if (given.kind == ShapeKind::halfspace) continue;
-      const Measured m = measure(given, mesh, list[i]);
+      const Measured m = measure(given, mesh, scene.concave_of(shape) == nullptr, list[i]);
       const bool made = m.words.empty();
       csv.field(scene.name).field(static_cast<std::int64_t>(shape)).field(to_string(given.kind));
       csv.field(users);
@@ -170,6 +178,7 @@ void run(const RepresentOptions& options) {
   }
   csv.close();
   print(scene, list, summaries);
+  return std::ranges::all_of(summaries, [](const Summary& s) { return s.missing == 0; });
 }
 
 }  // namespace
@@ -191,10 +200,7 @@ void add_represent(Arguments command) {
       .show_default();
   command.text("--out", options->out, "One row for each shape and form (CSV)").required();
   add_scene_overrides(command, options->overrides);
-  command.job([options] {
-    run(*options);
-    return exit_done;
-  });
+  command.job([options] { return run(*options) ? exit_done : exit_measured_wrong; });
 }
 
 }  // namespace touchstone::commands

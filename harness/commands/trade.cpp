@@ -70,6 +70,8 @@ std::filesystem::path trade_folder(const std::string& out, const std::string& na
 
 int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, bool with_figure) {
   trade::TradeScene scene(request, representing());
+  files::expect_other_files(scene.scene.inputs(),
+                            std::vector<files::NamedFile>{{"--out", folder / "trade.toml"}});
   if (request.name.empty()) request.name = scene.scene.name;
   const trade::TradeResult result = trade::measure_trade(
       request, scene, folder, [](const std::string& text) { fmt::print(stderr, "{}\n", text); });

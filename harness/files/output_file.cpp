@@ -43,7 +43,7 @@ void check_output(const std::filesystem::path& file) {
   if (!is_device(file)) OutputFile{file};
 }
 
-void check_outputs(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
+void expect_other_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const NamedFile& output = outputs[i];
     for (const NamedFile& input : inputs) {
@@ -57,6 +57,10 @@ void check_outputs(std::span<const NamedFile> inputs, std::span<const NamedFile>
           fmt::format("{} and {} name the same file; expected two", other.name, output.name));
     }
   }
+}
+
+void check_outputs(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
+  expect_other_files(inputs, outputs);
   for (const NamedFile& output : outputs) {
     if (!output.file.empty()) check_output(output.file);
   }

@@ -21,8 +21,10 @@ struct NamedFile {
   std::filesystem::path file;  // none if empty
 };
 
-// The same for several outputs. Throws too if two of them are one file, or if one is read as an input.
-// What is in /dev and other devices may be named more than once.
+// Throws if two of the outputs are one file, or if one is read as an input. What is in /dev and other
+// devices may be named more than once.
+void expect_other_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
+// The same, and check_output for each.
 void check_outputs(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 inline void check_outputs(std::initializer_list<NamedFile> inputs,
                           std::initializer_list<NamedFile> outputs) {

@@ -9,10 +9,10 @@
 namespace touchstone::geometry {
 
 // A part is a set of triangles connected by edges. It is closed if every edge is used as often in
-// one direction as in the other; its solid is the set of points with a nonzero winding number. In
-// the parts that are not closed as given, vertices at the same place are merged. Parts that are
-// still open enclose nothing, so their convex hull is their solid. The solid of the mesh is the
-// union.
+// one direction as in the other. In the parts that are not closed as given, vertices at the same
+// place are merged. Parts that are still open enclose nothing, so their convex hull is their solid.
+// The solid of the mesh is the union of these and of all points around which the closed parts
+// together wind: one that winds the other way inside another is the surface of a cavity.
 struct MeshPiece {
   Mesh mesh;
   bool closed = false;

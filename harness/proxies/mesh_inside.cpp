@@ -70,8 +70,8 @@ MeshInside::MeshInside(const LocalBody& body) : body_(body) {
           "the mesh is not closed, so nothing is inside it for certain; expected a "
           "mesh whose every edge is used once each way");
     }
-    pieces_.push_back(geometry::triangles_of(piece.mesh));
-    all.insert(all.end(), pieces_.back().begin(), pieces_.back().end());
+    const std::vector<geometry::Triangle> triangles = geometry::triangles_of(piece.mesh);
+    all.insert(all.end(), triangles.begin(), triangles.end());
   }
   surface_ = geometry::Surface(std::move(all));
   const std::optional<Vec3d> found = deepest(body.middle - body.half, body.middle + body.half, 2048,
@@ -81,10 +81,7 @@ MeshInside::MeshInside(const LocalBody& body) : body_(body) {
 }
 
 bool MeshInside::winds_about(const Vec3d& x) const {
-  return std::any_of(pieces_.begin(), pieces_.end(),
-                     [&](const std::vector<geometry::Triangle>& piece) {
-                       return std::abs(geometry::winding_number(piece, x)) > 0.5;
-                     });
+  return std::abs(geometry::winding_number(surface_.triangles(), x)) > 0.5;
 }
 
 // A plane perpendicular to the direction of the nearest point keeps the whole triangle at the

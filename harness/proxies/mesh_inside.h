@@ -38,7 +38,6 @@ class MeshInside {
   std::optional<Part> copy_about(const Part& part, const Vec3d& centre) const;
 
   const LocalBody& body_;
-  std::vector<std::vector<geometry::Triangle>> pieces_;
   geometry::Surface surface_{{}};
   Vec3d centre_ = Vec3d::Zero();
 };

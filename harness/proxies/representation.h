@@ -56,7 +56,7 @@ struct Part {
 // Returns the proxy of a body with this shape, and with this mesh if it has one; the shape is then
 // the mesh's convex hull. It has at least one part. Outer and inner proxies are proven in spite of
 // rounding; their quality is described in outer_fits.h, inner_fits.h, mesh_inside.h and
-// decomposition.h. A mesh's solid is that of mesh_solid.h. Throws InputError if there is no such
+// parts/decomposition.h. A mesh's solid is that of mesh_solid.h. Throws InputError if there is no such
 // proxy: an inner one of a flat body or of an open mesh, a nearest one of a flat body or of several
 // parts, any but as_given of a half-space, a mesh of a body without one, and another side of
 // as_given and mesh.
@@ -69,10 +69,11 @@ struct RepresentationError {
   double lost = 0;       // volume of the body outside the proxy, relative to the body's volume
   double hausdorff = 0;  // metres: greatest distance of a point of either surface from the other
   double size = 0;       // metres: diameter of the body's bounding ball
-  // Standard error of the volumes, relative to the body's. 0: exact to rounding, which holds if one
-  // of two convex solids contains the other and if both are polytopes. Otherwise volumes are
-  // integrals of exact lengths along 8 times 4,096 parallel lines, and the error follows from the
-  // differences of the eight. Infinite if the body has no volume but the parts have; `added` is
+  // Standard error of added + lost, relative to the body's volume. 0: exact to rounding, which holds
+  // between convex polytopes, and if one of two solids contains the other and their volumes are
+  // known: those of convex solids, of unions without overlap, and of meshes whose pieces do not
+  // overlap. Otherwise what is common is integrated along 8 times 4,096 parallel lines, and the
+  // error follows from the differences of the eight. Infinite if the body has no volume but the parts have; `added` is
   // then infinite too.
   double volume_deviation = 0;
   // Error of the Hausdorff distance in metres, in both directions. 0: exact to rounding, which

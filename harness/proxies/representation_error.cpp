@@ -21,6 +21,11 @@ void set_volumes(double body, double added, double lost, RepresentationError& er
   error.lost = part(lost);
 }
 
+void set_volumes(const Overlap& overlap, RepresentationError& error) {
+  set_volumes(overlap.body, overlap.added, overlap.lost, error);
+  error.volume_deviation = std::isfinite(error.volume_error()) ? overlap.deviation : infinity;
+}
+
 // The error of sampling on a round solid.
 double unseen(const Shape& shape) {
   switch (shape.kind) {
@@ -54,10 +59,7 @@ void compare_convex(const PlacedSolid& body, const PlacedSolid& part, double tol
     set_volumes(body_volume, std::max(0.0, part_volume - both), std::max(0.0, body_volume - both),
                 error);
   } else {
-    const Overlap overlap = overlap_of({body}, {}, {part});
-    set_volumes(body_volume, std::max(0.0, part_volume - overlap.both),
-                std::max(0.0, body_volume - overlap.both), error);
-    error.volume_deviation = overlap.deviation / body_volume;
+    set_volumes(overlap_of({body}, {}, {part}), error);
   }
   if (body_volume == 0 && part_volume > 0) error.volume_deviation = infinity;
 }
@@ -131,11 +133,7 @@ void compare_unions(const WholeBody& body, const std::vector<PlacedSolid>& parts
   for (const PlacedSolid& part : parts) {
     if (part.solid()) solid.push_back(part);
   }
-  const Overlap overlap = overlap_of(body.convex, body.closed, solid);
-  set_volumes(overlap.body, std::max(0.0, overlap.parts - overlap.both),
-              std::max(0.0, overlap.body - overlap.both), error);
-  error.volume_deviation = overlap.deviation > 0 ? overlap.deviation / overlap.body : 0;
-
+  set_volumes(overlap_of(body.convex, body.closed, solid), error);
   const geometry::Surface surface(body.surface);
   const std::vector<Vec3d> points = points_of_union(parts);
   std::vector<geometry::Triangle> of_parts;

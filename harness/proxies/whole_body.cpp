@@ -17,7 +17,7 @@ WholeBody::WholeBody(const LocalBody& body, const Mat3d& turn) {
     std::vector<geometry::Triangle> triangles = geometry::triangles_of(piece.mesh);
     surface.insert(surface.end(), triangles.begin(), triangles.end());
     if (piece.closed) {
-      closed.push_back(std::move(triangles));
+      closed.insert(closed.end(), triangles.begin(), triangles.end());
       continue;
     }
     Shape hull;

@@ -8,14 +8,15 @@
 
 namespace touchstone::proxies {
 
-// Solids in the local frame, rotated by `turn`. The body is their union.
+// Solids in the local frame, rotated by `turn`. The body is the union of the convex ones and of what
+// the closed surface winds around.
 struct WholeBody {
   WholeBody(const LocalBody& body, const Mat3d& turn);
 
-  std::vector<PlacedSolid> convex;  // hulls of open pieces, or a body without mesh
-  std::vector<std::vector<geometry::Triangle>> closed;  // closed pieces of a mesh
-  std::vector<geometry::Triangle> surface;              // approximate if round
-  double volume() const;                                // of a mesh as in union_volume.h
+  std::vector<PlacedSolid> convex;          // hulls of open pieces, or a body without mesh
+  std::vector<geometry::Triangle> closed;   // the closed pieces of a mesh
+  std::vector<geometry::Triangle> surface;  // approximate if round
+  double volume() const;                    // of a mesh as in union_volume.h
 };
 
 }  // namespace touchstone::proxies

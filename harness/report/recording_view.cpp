@@ -92,6 +92,7 @@ OrderedJson pairs_view(const ScenePairs& pairs, std::span<const measure::NarrowC
 
 OrderedJson recording_view(const RecordingRequest& request) {
   scene::Scene scene = scene::load_scene(request.scene, request.overrides);
+  files::expect_other_files(scene.inputs(), std::vector<files::NamedFile>{{"--out", request.page}});
   const std::string hash = scene::scene_hash(scene);  // of all frames
   const int all_frames =
       scene.recording.empty() ? scene.frames : static_cast<int>(scene.recording.size());

@@ -13,6 +13,7 @@ namespace touchstone::report {
 
 struct RecordingRequest {
   std::filesystem::path scene;
+  std::filesystem::path page = {};  // will be written, so must be none of the scene's files
   scene::SceneOverrides overrides = {};
   int most_frames = 240;
   // Their verdicts colour the bodies; in double where they can.

@@ -134,7 +134,10 @@ class Importer {
       return own_parts_;
     }
     const auto [at, is_new] = meshes_.try_emplace(name);
-    if (is_new) at->second = geometry::read_mesh(find_mesh(body, name));
+    if (is_new) {
+      scene_.files.push_back(find_mesh(body, name));
+      at->second = geometry::read_mesh(scene_.files.back());
+    }
     const Vec3d scale = scale_of(body, at->second);
     const auto [parts, is_new_scale] =
         parts_.try_emplace({name, scale.x(), scale.y(), scale.z(), split});

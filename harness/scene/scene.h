@@ -14,6 +14,7 @@
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
+#include "harness/files/output_file.h"
 #include "harness/geometry/mesh.h"
 
 namespace touchstone::scene {
@@ -74,6 +75,8 @@ struct Scene {
   // The pairs for narrow phases, sorted, a < b, in a scene that lists them instead of using a broad
   // phase; equal in every frame. Otherwise empty.
   std::vector<IndexPair> pairs;
+  // The files that it was read from: its own, one that it imports, meshes.
+  std::vector<std::filesystem::path> files;
 
   std::uint32_t add_shape(Shape shape, std::shared_ptr<const geometry::Mesh> mesh = nullptr,
                           std::shared_ptr<const ConcaveBody> body = nullptr) {
@@ -93,6 +96,13 @@ struct Scene {
   }
   const ConcaveBody* concave_of(std::size_t shape) const {
     return shape < concave.size() ? concave[shape].get() : nullptr;
+  }
+
+  // Its files for files::check_outputs, which refuses to overwrite them.
+  std::vector<files::NamedFile> inputs() const {
+    std::vector<files::NamedFile> named;
+    for (const std::filesystem::path& file : files) named.push_back({"a file of the scene", file});
+    return named;
   }
 
   // The number of bodies present, which is equal in every frame.

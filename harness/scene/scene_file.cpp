@@ -199,6 +199,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
         scene = import_scene(imported, uses);
       }
       frames = scene.frames;
+      scene.files.push_back(imported);
     }
     refuse_count(file, overrides);
     refuse_gap(file, overrides);
@@ -208,6 +209,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
       refuse_seed(file, overrides);
     }
   }
+  for (std::filesystem::path& mesh : shapes.files()) scene.files.push_back(std::move(mesh));
   scene.name = table.text("name", path.stem().string());
   const std::int64_t asked = table.integer("frames", 1, most_frames, frames);
   if (overrides.frames == -1) {
@@ -290,6 +292,7 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
     scene.name = path.stem().string();
     if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
   }
+  scene.files.push_back(path);
   if (overrides.gap) {
     const double gap = *overrides.gap;
     scene.name += fmt::format(" {} {}", gap < 0 ? "depth" : "gap", std::abs(gap));

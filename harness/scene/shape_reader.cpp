@@ -203,6 +203,13 @@ const std::vector<MeshPart>& ShapeReader::read_parts(files::TomlTable& table) {
   return found->second;
 }
 
+std::vector<std::filesystem::path> ShapeReader::files() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& [key, shape] : meshes_) files.emplace_back(std::get<0>(key));
+  for (const auto& [key, parts] : parts_) files.emplace_back(std::get<0>(key));
+  return files;
+}
+
 TurnedShape ShapeReader::read(files::TomlTable& table) {
   if (table.has("mesh")) return read_mesh(table);
   std::vector<std::string_view> names(shape_names().begin(), shape_names().end());

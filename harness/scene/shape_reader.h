@@ -62,6 +62,9 @@ class ShapeReader {
   // What the table's mesh is.
   MeshUse use_of(files::TomlTable& table, MeshUse fallback = MeshUse::surface) const;
 
+  // The mesh files that were read.
+  std::vector<std::filesystem::path> files() const;
+
   // The file named by the key; it must exist.
   std::filesystem::path existing_file(files::TomlTable& table, std::string_view key,
                                       std::string_view expected) const;

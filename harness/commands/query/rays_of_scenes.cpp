@@ -105,8 +105,9 @@ void cast_rays_at_scene(const RaysOptions& options) {
   const scene::Scene scene = scene::load_scene(options.target);
   const std::vector<SceneBody> bodies = bodies_at(scene, options.frame, options.target);
   const std::vector<Ray> rays = read_rays(options.rays);
-  files::check_outputs({{"FILE", options.target}, {"--rays", options.rays}},
-                       {{"--out", options.out}});
+  std::vector<files::NamedFile> inputs = scene.inputs();
+  inputs.push_back({"--rays", options.rays});
+  files::check_outputs(inputs, std::vector<files::NamedFile>{{"--out", options.out}});
   std::vector<SceneCast> casts;
   casts.reserve(entries.size());
   for (const SceneRayCastEntry* entry : entries)

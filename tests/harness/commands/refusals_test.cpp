@@ -161,5 +161,41 @@ TEST_F(Refusals, PairsSayWhatTheyRound) {
             std::string::npos);
 }
 
+// The scene's own file, the mesh that it names, and the scene that it imports.
+TEST_F(Refusals, OutputsOverAScenesFiles) {
+  const std::string mesh =
+      "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const std::vector<std::string> names = {"mesh.obj", "listed.toml", "scene.toml"};
+  const std::vector<std::string> texts = {mesh, "[[body]]\nmesh = \"mesh.obj\"\n",
+                                          "import = \"listed.toml\"\n"};
+  for (std::size_t i = 0; i < 3; ++i) folder.write(names[i], texts[i]);
+  folder.write("rays.csv",
+               "origin_x,origin_y,origin_z,direction_x,direction_y,direction_z,t_max\n"
+               "0,0,9,0,0,-1,inf\n");
+  const std::string scene = path("scene.toml");
+  for (const std::string& command :
+       {"represent " + scene + " --forms sphere",
+        "rays " + scene + " --rays " + path("rays.csv") + " --cast exact"}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      refuse(command + " --out " + path(names[i]), "would overwrite");
+      EXPECT_EQ(folder.read(names[i]), texts[i]);
+    }
+    EXPECT_EQ(run_program(command + " --out " + path("out.csv")).status, 0) << command;
+  }
+  // Others write only names that end otherwise than a mesh's.
+  std::filesystem::create_symlink(path("mesh.obj"), path("mesh.png"));
+  std::filesystem::create_symlink(path("mesh.obj"), path("mesh.csv"));
+  refuse("draw " + scene + " --out " + path("mesh.png"), "would overwrite");
+  refuse("record " + scene + " --out " + path("mesh.csv"), "would overwrite");
+  for (const std::string command : {"trade", "advise"}) {
+    const std::string own = command == "trade" ? "trade.toml" : "advice.toml";
+    folder.write(own, texts[1]);
+    refuse(command + " " + path(own) + " --out " + folder.path().string() +
+               (command == "trade" ? "" : " --max-error 0"),
+           "would overwrite");
+    EXPECT_EQ(folder.read(own), texts[1]);
+  }
+}
+
 }  // namespace
 }  // namespace touchstone

@@ -35,8 +35,9 @@ class Represent : public testing::Test {
     arguments.insert(arguments.begin(), {"represent", scene_.string(), "--out", out()});
     return line.run(arguments);
   }
-  std::vector<Row> run(const std::vector<std::string>& arguments) {
-    EXPECT_EQ(status_of(arguments), commands::exit_done);
+  std::vector<Row> run(const std::vector<std::string>& arguments,
+                       int status = commands::exit_done) {
+    EXPECT_EQ(status_of(arguments), status);
     std::vector<Row> rows;
     files::CsvReader(out(), {"kind", "form", "status", "bodies", "triangles", "parts"})
         .read([&](const files::CsvReader::Row& row) {
@@ -51,7 +52,8 @@ class Represent : public testing::Test {
 };
 
 TEST_F(Represent, OneRowForEachShapeAndForm) {
-  const std::vector<Row> rows = run({"--forms", "sphere,hull-8,mesh"});
+  const std::vector<Row> rows =
+      run({"--forms", "sphere,hull-8,mesh"}, commands::exit_measured_wrong);
   ASSERT_EQ(rows.size(), 9u);
   EXPECT_EQ(rows[0].kind, "sphere");
   EXPECT_EQ(rows[0].form, "sphere");
@@ -65,12 +67,32 @@ TEST_F(Represent, OneRowForEachShapeAndForm) {
 }
 
 TEST_F(Represent, ASideIsForAllForms) {
-  const std::vector<Row> rows = run({"--forms", "sphere,box", "--side", "inner"});
+  const std::vector<Row> rows =
+      run({"--forms", "sphere,box", "--side", "inner"}, commands::exit_measured_wrong);
   ASSERT_EQ(rows.size(), 6u);
   EXPECT_EQ(rows[1].form, "box inner");
   EXPECT_EQ(rows[1].status, "ok");
   EXPECT_NE(rows[2].status, "ok") << "of a flat body";
   EXPECT_EQ(rows[4].status, "ok");
+}
+
+TEST_F(Represent, AsGivenIsTheShapeIfItIsConvex) {
+  const std::vector<Row> rows = run({"--forms", "as-given"}, commands::exit_measured_wrong);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].status, "ok");
+  EXPECT_EQ(rows[1].status, "ok");
+  EXPECT_THAT(rows[2].status, testing::HasSubstr("not convex"));
+  scene_ = folder_.write("h.toml", "body = [{mesh = \"t.obj\", as = \"hull\"}]\n");
+  const std::vector<Row> hull = run({"--forms", "as-given"});
+  ASSERT_EQ(hull.size(), 1u);
+  EXPECT_EQ(hull[0].status, "ok");
+}
+
+TEST_F(Represent, HasEveryUsualFormOfARing) {
+  scene_ = folder_.write(
+      "r.toml",
+      "body = [{shape = {type = \"torus\", around = 16, across = 8, tube_radius = 0.2}}]\n");
+  for (const Row& row : run({})) EXPECT_EQ(row.status, "ok") << row.form;
 }
 
 TEST_F(Represent, RefusesWhatIsNone) {

@@ -49,6 +49,33 @@ inline geometry::Mesh angle_bracket() {
   return mesh;
 }
 
+// The boundary of a cube; turned inside out it is that of a cavity.
+inline geometry::Mesh cube_mesh(double half, bool inside_out) {
+  geometry::Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half);
+  }
+  constexpr std::uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                         {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& f : faces) {
+    mesh.triangles.push_back({f[0], f[1], f[2]});
+    mesh.triangles.push_back({f[0], f[2], f[3]});
+  }
+  if (inside_out) {
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
+// A cube of 4 with a cubic cavity of 2 in it, or the same turned inside out; a volume of 56.
+inline geometry::Mesh hollow_cube(bool inside_out) {
+  geometry::Mesh mesh = cube_mesh(2, inside_out);
+  const geometry::Mesh cavity = cube_mesh(1, !inside_out);
+  mesh.vertices.insert(mesh.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
+  for (const auto& [a, b, c] : cavity.triangles) mesh.triangles.push_back({a + 8, b + 8, c + 8});
+  return mesh;
+}
+
 inline Shape hull_of(const geometry::Mesh& mesh) {
   Shape shape;
   shape.kind = ShapeKind::hull;

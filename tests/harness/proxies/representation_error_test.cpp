@@ -89,6 +89,53 @@ TEST(RepresentationError, IsExactBetweenPolytopesThatCross) {
   EXPECT_NEAR(one.hausdorff, 0.5, 1e-12);
 }
 
+// What two balls have in common, with their centres d apart and neither inside the other.
+double common_volume(double a, double b, double d) {
+  if (d >= a + b) return 0;
+  const double rest = a + b - d;
+  return pi * rest * rest * (d * d + 2 * d * (a + b) - 3 * (a - b) * (a - b)) / (12 * d);
+}
+
+// The mean of eight numbers is off by its standard error times a variable of Student's distribution
+// with seven degrees of freedom, whose mean square is 7/5.
+TEST(RepresentationError, IsOffByItsStandardError) {
+  base::Random random(4);
+  const auto part_at = [](double radius, const Vec3d& centre) {
+    proxies::Part part;
+    part.shape = ball(radius);
+    part.pose.translation = centre;
+    return part;
+  };
+  constexpr int draws = 100;
+  double one = 0, two = 0;
+  for (int i = 0; i < draws; ++i) {
+    // A ball that crosses the body.
+    const double a = random.uniform(0.5, 1), b = random.uniform(0.5, 1);
+    const double d = random.uniform(std::abs(a - b) + 0.05, a + b - 0.05);
+    const double whole = 4.0 / 3 * pi * a * a * a, other = 4.0 / 3 * pi * b * b * b;
+    const proxies::RepresentationError e =
+        proxies::representation_error(ball(a), nullptr, {part_at(b, d * random.on_sphere())});
+    ASSERT_GT(e.volume_deviation, 0);
+    ASSERT_LT(e.volume_deviation, 0.01);
+    EXPECT_NEAR(e.added - e.lost, other / whole - 1, 1e-9);
+    const double off = e.volume_error() - (whole + other - 2 * common_volume(a, b, d)) / whole;
+    one += off * off / (e.volume_deviation * e.volume_deviation);
+    // Two that cross each other inside it, one as large as the other.
+    const Vec3d from = random.uniform(0.1, 0.35) * random.on_sphere();
+    const double r = random.uniform(0.4, 0.6);
+    const proxies::RepresentationError f =
+        proxies::representation_error(ball(1), nullptr, {part_at(r, from), part_at(r, -from)});
+    ASSERT_GT(f.volume_deviation, 0);
+    EXPECT_EQ(f.added, 0);
+    const double lost = 1 - 2 * r * r * r + common_volume(r, r, 2 * from.norm()) / (4.0 / 3 * pi);
+    two += (f.lost - lost) * (f.lost - lost) / (f.volume_deviation * f.volume_deviation);
+  }
+  for (double squares : {one, two}) {
+    EXPECT_GT(std::sqrt(squares / draws), 0.85);
+    EXPECT_LT(std::sqrt(squares / draws), 1.6);
+  }
+}
+
 double support(const Shape& s, const Pose& pose, const Vec3d& direction) {
   const Vec3d n = pose.rotation.transpose() * direction;
   const double disc = s.radius * std::hypot(n.x(), n.y()), along = s.half_length * n.z();

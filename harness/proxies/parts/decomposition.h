@@ -12,9 +12,9 @@ namespace touchstone::proxies {
 //
 // The method is approximate convex decomposition by planes, as in Wei, Liu, Su, "Approximate convex
 // decomposition for 3D meshes with collision-aware concavity and tree search", SIGGRAPH 2022. Here
-// concavity is the volume that the hull adds, cuts are chosen greedily (along three axes, and along
-// the faces beside the sharpest concave edges), and parts are joined again while that adds little.
-// A piece that is not closed becomes one part, its hull.
+// concavity is the volume that the hull adds, the search for a cut looks ahead by one more
+// (cut_choice.h), and parts are joined again while that adds little. A piece that is not closed
+// becomes one part, its hull. A sliver that a cut left becomes a box.
 //
 // The parts contain the solid for this reason: at a point with a nonzero winding number of the
 // mesh, one of the pieces has a nonzero winding number (mesh_cut.h), so the point is in that
