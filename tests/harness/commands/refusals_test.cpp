@@ -175,7 +175,7 @@ TEST_F(Refusals, OutputsOverAScenesFiles) {
   const std::string scene = path("scene.toml");
   for (const std::string& command :
        {"represent " + scene + " --forms sphere",
-        "rays " + scene + " --rays " + path("rays.csv") + " --cast exact"}) {
+        "rays " + scene + " --rays " + path("rays.csv") + " --task any --cast exact"}) {
     for (std::size_t i = 0; i < 3; ++i) {
       refuse(command + " --out " + path(names[i]), "would overwrite");
       EXPECT_EQ(folder.read(names[i]), texts[i]);
