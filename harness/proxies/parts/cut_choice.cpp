@@ -128,15 +128,6 @@ double sum_after_another(const Cut& cut, const Mat3d& axes, double sign) {
   return sum;
 }
 
-// The volume of the hulls of those parts that are not convex yet.
-double concave_volume(const Cut& cut, double concavity) {
-  double sum = 0;
-  for (const Piece& part : cut.parts) {
-    if (part.concavity() > 1e-3 * concavity) sum += part.hull_volume;
-  }
-  return sum;
-}
-
 }  // namespace
 
 std::vector<Piece> best_cut(const Piece& piece, const Mat3d& axes, double sign) {
@@ -153,11 +144,7 @@ std::vector<Piece> best_cut(const Piece& piece, const Mat3d& axes, double sign) 
       best = &cuts[i];
     }
   }
-  if (!(least < (1 - least_gain) * piece.hull_volume)) {
-    const auto left = [&](const Cut& cut) { return concave_volume(cut, piece.concavity()); };
-    best = &*std::ranges::min_element(cuts, {}, left);
-    if (!(left(*best) < 0.99 * piece.hull_volume)) return {};
-  }
+  if (!(least < (1 - least_gain) * piece.hull_volume)) return {};
   return std::move(best->parts);
 }
 

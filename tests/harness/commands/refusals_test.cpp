@@ -163,10 +163,10 @@ TEST_F(Refusals, PairsSayWhatTheyRound) {
 
 // The scene's own file, the mesh that it names, and the scene that it imports.
 TEST_F(Refusals, OutputsOverAScenesFiles) {
-  const std::string mesh =
+  const std::string surface =
       "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   const std::vector<std::string> names = {"mesh.obj", "listed.toml", "scene.toml"};
-  const std::vector<std::string> texts = {mesh, "[[body]]\nmesh = \"mesh.obj\"\n",
+  const std::vector<std::string> texts = {surface, "[[body]]\nmesh = \"mesh.obj\"\n",
                                           "import = \"listed.toml\"\n"};
   for (std::size_t i = 0; i < 3; ++i) folder.write(names[i], texts[i]);
   folder.write("rays.csv",
@@ -175,7 +175,7 @@ TEST_F(Refusals, OutputsOverAScenesFiles) {
   const std::string scene = path("scene.toml");
   for (const std::string& command :
        {"represent " + scene + " --forms sphere",
-        "rays " + scene + " --rays " + path("rays.csv") + " --cast exact"}) {
+        "rays " + scene + " --rays " + path("rays.csv") + " --task any --cast exact"}) {
     for (std::size_t i = 0; i < 3; ++i) {
       refuse(command + " --out " + path(names[i]), "would overwrite");
       EXPECT_EQ(folder.read(names[i]), texts[i]);
