@@ -19,7 +19,7 @@
 namespace touchstone::cells {
 namespace {
 
-enum class Place : std::uint8_t { volume, near };
+enum class PointPlace : std::uint8_t { volume, near };
 constexpr std::array<std::string_view, 2> point_place_names = {"volume", "near"};
 constexpr std::array<std::string_view, 2> point_task_names = {"closest", "side"};
 // A distance is wrong if it is off by more, in parts of the mesh's size. Libraries may calculate in floats.
@@ -27,7 +27,7 @@ constexpr double greatest_error_of_ours = 1e-14, greatest_error_of_peers = 1e-5;
 
 // In the mesh's box made larger by a half, or within a hundredth of its size of a triangle. All numbers are
 // floats, so that libraries of floats are asked the same.
-std::vector<Vec3d> make_points(const MeshInput& input, Place place, std::size_t count,
+std::vector<Vec3d> make_points(const MeshInput& input, PointPlace place, std::size_t count,
                                std::uint64_t seed) {
   base::Random random(seed, 16 + static_cast<std::uint64_t>(place));
   const TriangleMesh& mesh = input.mesh;
@@ -35,7 +35,7 @@ std::vector<Vec3d> make_points(const MeshInput& input, Place place, std::size_t 
   std::vector<Vec3d> points;
   while (points.size() < count) {
     Vec3d point = input.centre() + 1.5 * (input.draw(random) - input.centre());
-    if (place == Place::near) {
+    if (place == PointPlace::near) {
       const auto& [a, b, c] = mesh.triangles[random.below(mesh.triangles.size())];
       double v = random.uniform(0, 1), w = random.uniform(0, 1);
       if (v + w > 1) {
@@ -85,7 +85,7 @@ class PointCells {
              std::size_t count, std::uint64_t seed)
       : mesh_(std::move(mesh)), entries_(std::move(entries)), count_(count), seed_(seed) {}
 
-  Cell make(Place place, PointTask task) {
+  Cell make(PointPlace place, PointTask task) {
     const auto input = std::make_shared<PointInput>();
     input->points = make_points(*mesh_, place, count_, seed_);
     input->exact.resize(count_);
@@ -146,8 +146,9 @@ std::vector<PlannedCell> point_cells(files::TomlTable& table, const std::filesys
       for (const std::size_t task : tasks) {
         cells.push_back(
             {mesh->title,
-             fmt::format("{} points, {}", point_place_names[place], point_task_names[task]),
-             [=] { return maker->make(static_cast<Place>(place), static_cast<PointTask>(task)); }});
+             fmt::format("{} points, {}", point_place_names[place], point_task_names[task]), [=] {
+               return maker->make(static_cast<PointPlace>(place), static_cast<PointTask>(task));
+             }});
       }
     }
   }

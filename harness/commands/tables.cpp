@@ -36,7 +36,9 @@ struct TablesOptions {
   bool check = false, noisy = false;
 };
 
-std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
+std::string number_text(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.3f}", value);
+}
 
 template <class Entry>
 std::optional<record::RowOrigin> origin_among(std::span<const Entry> entries,
@@ -124,7 +126,7 @@ std::filesystem::path run_again(const std::filesystem::path& reference,
   return out;
 }
 
-void print(const std::string& title, const std::vector<std::string>& lines) {
+void print_lines(const std::string& title, const std::vector<std::string>& lines) {
   if (lines.empty()) return;
   fmt::print("{}\n", title);
   for (const std::string& line : lines) fmt::print("  {}\n", line);
@@ -136,16 +138,17 @@ int check(const std::filesystem::path& reference, const std::filesystem::path& r
   const stats::TableCheck found =
       stats::check_tables(reference, stats::read_results(results),
                           options.noisy ? stats::Noise::kept : stats::Noise::left_out);
-  print("FAIL: not the same to the digit", found.changed);
-  print("Not looked at", found.left_out);
+  print_lines("FAIL: not the same to the digit", found.changed);
+  print_lines("Not looked at", found.left_out);
   for (std::size_t i = 0; i < found.cells.size();) {
     const stats::CheckedCell& first = found.cells[i];
     base::Table table({"over " + first.baseline, "stated", "band", "here", "interval", ""});
     for (; i < found.cells.size() && found.cells[i].key == first.key; ++i) {
       const stats::CheckedCell& cell = found.cells[i];
-      table.add({cell.label, number(cell.stated),
-                 number(cell.band_low) + " to " + number(cell.band_high), number(cell.ratio.median),
-                 number(cell.ratio.low) + " to " + number(cell.ratio.high),
+      table.add({cell.label, number_text(cell.stated),
+                 number_text(cell.band_low) + " to " + number_text(cell.band_high),
+                 number_text(cell.ratio.median),
+                 number_text(cell.ratio.low) + " to " + number_text(cell.ratio.high),
                  std::string(to_string(cell.state))});
     }
     fmt::print("{}\n\n{}\n", first.key.words(), table.text(base::page_width()));

@@ -13,7 +13,7 @@ namespace touchstone::trade {
 namespace {
 
 constexpr double preparation_share = 0.03;  // share of the seconds, for one representation
-constexpr double truth_share = 0.2;         // share of the seconds
+constexpr double share_of_truth = 0.2;      // share of the seconds
 constexpr double least_timing = 0.4;  // least share of the seconds, however long the rest took
 constexpr std::size_t most_truth_frames = 16;
 
@@ -70,7 +70,7 @@ TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
   std::vector<std::size_t> sampled = sampling_order(result.frames);
   sampled.resize(std::min(sampled.size(), most_truth_frames));
   const std::vector<FrameTruth> truth =
-      find_truth(scene.frames, sampled, truth_share * request.seconds, request.threads);
+      find_truth(scene.frames, sampled, share_of_truth * request.seconds, request.threads);
   result.truth_frames = truth.size();
   for (const FrameTruth& frame : truth) result.near_pairs += frame.pairs.size();
   said(fmt::format("exact answers for {} pairs near each other, in {} frames ({:.0f} s)",

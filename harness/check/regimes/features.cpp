@@ -208,14 +208,14 @@ Feature pick_axial_feature(const Shape& shape, FeatureKind kind, base::Random& r
 
 // --- half-spaces --------------------------------------------------------------------------------
 
-Feature pick_plane_feature(const Shape& shape, double reach, base::Random& random) {
+Feature pick_plane_feature(const Shape& shape, double far, base::Random& random) {
   Feature feature;
   feature.kind = FeatureKind::face;
   feature.normal = base::unit(shape.normal);
   const DoubleDouble3 n = base::exactly(shape.normal);
   const double square = dot(n, n).value();
   const Vec3d away = base::beside(feature.normal, random.on_sphere());
-  feature.point = base::exactly((reach * random.unit()) * away);
+  feature.point = base::exactly((far * random.unit()) * away);
   // This projects onto the plane; the second step removes the first one's rounding.
   for (int step = 0; step < 2; ++step) {
     const DoubleDouble miss = DoubleDouble{shape.offset, 0} - dot(n, feature.point);

@@ -22,12 +22,12 @@ std::vector<double> link_angles(const std::vector<double>& joints) {
 }
 
 // The centres of the links in the arm's plane, whose base is the origin.
-std::vector<Vec3d> link_centres(const std::vector<double>& angles, double length) {
+std::vector<Vec3d> link_centres(const std::vector<double>& angles, double link) {
   std::vector<Vec3d> centres;
   Vec3d joint = Vec3d::Zero();
   for (const double angle : angles) {
     const base::SinCos turn = base::sin_cos_turns(angle);
-    const Vec3d along = {length * turn.cos, length * turn.sin, 0};
+    const Vec3d along = {link * turn.cos, link * turn.sin, 0};
     centres.push_back(joint + 0.5 * along);
     joint += along;
   }
