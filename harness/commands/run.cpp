@@ -35,7 +35,7 @@ struct RunOptions {
   std::vector<std::int64_t> counts = {-1};
   std::vector<std::int64_t> seeds = {-1};
   int frames = -1;
-  double tolerance = 0, time_limit = 10;
+  double tolerance = 0, time_limit = 10, seconds = campaign::CampaignGroup{}.seconds;
   bool product = false, rebuild = false, warm = false;
   int batch = measure::usual_batch;
   // These options decide how the campaign is measured.
@@ -62,6 +62,7 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   group.counts = options.counts;
   group.seeds = options.seeds;
   group.frames = options.frames;
+  group.seconds = options.seconds;
   group.boxes = options.boxes;
   group.threads = options.threads;
   group.rebuild = options.rebuild;
@@ -235,6 +236,9 @@ void add_run(Arguments command) {
   add(command.numbers("--count", options->counts, "Bodies of a generated scene").positive());
   add(command.numbers("--seed", options->seeds, "Seeds of a generated scene").not_negative());
   add(command.number("--frames", options->frames, "Frames").positive());
+  add(command.number("--seconds", options->seconds, "Seconds for the samples of a block of cells")
+          .positive()
+          .show_default());
   add(command
           .number("--tolerance", options->tolerance,
                   "Of the narrow phases, as a part of the pair's size")

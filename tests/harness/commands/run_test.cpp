@@ -49,7 +49,7 @@ TEST_F(RunCommand, TakesASceneInsteadOfACampaign) {
   const Ran ran = run_program(
       "--isa baseline run --scene " + path("s.toml") +
       " --broad naive,kd-tree --narrow sat --task penetration --scalar double --threads 2"
-      " --count 30,60 --boxes tight,loose --out " +
+      " --count 30,60 --boxes tight,loose --seconds 0.3 --out " +
       path("out"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   std::map<std::string, int> isa, bodies, boxes;
