@@ -87,7 +87,7 @@ double axis_serves_until(const RelativeMotion& motion, const PartingPlane& plane
 }
 
 struct BilateralStep {
-  static constexpr bool balls_first = true;
+  static constexpr bool balls_first = true, planes_turn = false;  // the axis keeps its direction
   static FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair,
                         const PartingPlane& plane);
 };
@@ -95,14 +95,12 @@ struct BilateralStep {
 FreeUntil BilateralStep::step(const RelativeMotion& motion, SupportPair<double>& pair,
                               const PartingPlane& plane) {
   constexpr int most_pieces = 32;
-  // Its axis keeps its direction.
-  const PartingPlane fixed = {plane.time, plane.normal, plane.gap};
-  FreeUntil free = longest_step(motion, pair, fixed);
+  FreeUntil free = longest_step(motion, pair, plane);
   const bool turns = motion.a().motion->turns() || motion.b().motion->turns();
   if (free.to_the_end || !turns || !(free.time > plane.time)) return free;
   // Where a piece ends with the gap used up, the next plane is better.
   const double enough = 0.3 * plane.gap;
-  PartingPlane piece = fixed;
+  PartingPlane piece = plane;
   std::optional<double> end;
   for (int k = 0; k < most_pieces; ++k) {
     SupportPair<double> there = motion.at(free.time);

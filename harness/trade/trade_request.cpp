@@ -13,7 +13,6 @@ namespace touchstone::trade {
 namespace {
 
 constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
-constexpr std::array<std::string_view, 3> task_words = {"intersect", "distance", "penetration"};
 
 // Converts each element with `make`; an error that it throws is reported with the element's place.
 template <class Value, class Make>
@@ -194,7 +193,7 @@ std::vector<TradeRequest> read_trades(const std::filesystem::path& file,
   const std::vector<std::int64_t> counts = table.integers("count", 1, 100'000'000, -1);
   const std::vector<std::int64_t> seeds = table.integers("seed", 0, most, -1);
   request.overrides.frames = static_cast<int>(table.integer("frames", 1, 1'000'000, -1));
-  request.task = static_cast<Task>(table.choice("task", task_words, 0));
+  request.task = static_cast<Task>(table.choice("task", traded_tasks, 0));
   request.threads = static_cast<int>(table.integer("threads", 1, 1024, 2));
   request.seconds = table.number("seconds", files::positive, 150.0);
   request.measure = static_cast<ErrorMeasure>(table.choice(

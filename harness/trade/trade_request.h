@@ -1,8 +1,10 @@
 // A request to `touchstone trade`, from the command line or a file.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/record/result_folder.h"
@@ -13,6 +15,9 @@
 namespace touchstone::trade {
 
 inline constexpr int default_trade_frames = 65;  // one to begin with and 64 timed ones
+// The tasks that can be traded, in the order of Task.
+inline constexpr std::array<std::string_view, 3> traded_tasks = {"intersect", "distance",
+                                                                 "penetration"};
 
 struct TradeRequest {
   std::string name;  // the name of the figure

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double narrow_setup_seconds = 60;
 constexpr std::size_t outcomes_at_once = 250'000;  // a number that takes about 50 MB
-constexpr double longest_batch_to_count =
-    10;  // seconds of a batch; a slower one counts no allocations
+// seconds of a batch; a slower one counts no allocations
+constexpr double longest_batch_to_count = 10;
 
 // The child's sums over one piece; the outcomes themselves are in shared memory.
 struct NarrowAnswer {

@@ -12,8 +12,6 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr std::array<std::string_view, 3> task_names = {"intersect", "distance", "penetration"};
-
 AdviceTask read_task(files::TomlTable& table, const std::filesystem::path& folder,
                      const TradeRequest& usual) {
   AdviceTask task;
@@ -29,7 +27,7 @@ AdviceTask read_task(files::TomlTable& table, const std::filesystem::path& folde
   }
   request.name = task.name + "-advice";
   request.task =
-      static_cast<Task>(table.choice("task", task_names, static_cast<std::size_t>(usual.task)));
+      static_cast<Task>(table.choice("task", traded_tasks, static_cast<std::size_t>(usual.task)));
   request.measure = static_cast<ErrorMeasure>(table.choice(
       "error", error_measure_names, static_cast<std::size_t>(default_measure(request.task))));
   task.budget.most = table.number("max_error", files::not_negative, task.budget.most);

@@ -125,8 +125,9 @@ Shape point(Random& random) { return bare_hull({0.1 * random_direction(random)},
 
 void expect_both(const AxisTally& tally) {
   const int all = tally.apart + tally.common;
-  EXPECT_GT(tally.apart, all / 6);
-  EXPECT_GT(tally.common, all / 6);
+  const int share = one_in == 1 ? all / 5 : all / 6;  // a few draws vary more
+  EXPECT_GT(tally.apart, share);
+  EXPECT_GT(tally.common, share);
   EXPECT_LE(tally.gave_up, 4 * all / 50);
 }
 

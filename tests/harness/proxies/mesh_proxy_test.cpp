@@ -57,7 +57,7 @@ TEST(Meshes, OuterOnesHoldTheSolid) {
       points.push_back(m.mesh.vertices[i]);
     }
     for (const char* form : {"sphere", "box", "oriented-box", "dop-26", "capsule", "hull-12",
-                             "hull", "parts", "parts-2", "icosphere-1"}) {
+                             "hull", "parts", "parts-2", "parts-5", "icosphere-1"}) {
       SCOPED_TRACE(m.name + ", " + form);
       const auto parts =
           proxies::represent(hull_of(m.mesh), &m.mesh, proxies::parse_representation(form));
@@ -114,7 +114,7 @@ TEST(Meshes, PartsComeNearTheSolid) {
 
   const geometry::Mesh ring = torus(1, 0.2, 32, 16);
   double before = 10;
-  for (int most : {1, 4, 16}) {
+  for (int most : {1, 4, 8, 16}) {
     const auto pieces = proxies::represent(hull_of(ring), &ring,
                                            {proxies::Form::parts, proxies::Side::outer, most});
     EXPECT_LE(pieces.size(), static_cast<std::size_t>(most));
@@ -159,7 +159,8 @@ TEST(Meshes, ACavityIsNoPartOfThem) {
 // Cuts beside vertices leave points that almost coincide, in which Qhull finds no faces.
 TEST(Meshes, ARingIsCutIntoSectors) {
   const geometry::Mesh ring = torus(1, 0.2, 32, 16);
-  for (const auto& [most, added] : {std::pair(0, 0.05), std::pair(8, 0.25)}) {
+  for (const auto& [most, added] :
+       {std::pair(0, 0.05), std::pair(8, 0.25), std::pair(16, 0.05), std::pair(32, 0.02)}) {
     const auto parts = proxies::represent(hull_of(ring), &ring,
                                           {proxies::Form::parts, proxies::Side::outer, most});
     const proxies::RepresentationError e =

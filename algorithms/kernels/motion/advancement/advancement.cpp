@@ -13,7 +13,7 @@
 namespace touchstone {
 
 AdvancementSearch::AdvancementSearch(const RelativeMotion& motion, const AdvancementGoal& goal)
-    : motion_(motion) {
+    : motion_(motion), planes_turn_(goal.planes_turn) {
   const auto size = [](const MovingBody& body, double reach) {
     return std::max(reach, body.shape->size) + body.shape->radius;
   };
@@ -93,7 +93,7 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   const double upper = inside ? 0.0 : unit * (found.upper - pair.radius());
   if (!inside && upper > tolerance_) {
     Advancement result = apart(pair, time, found.direction, found.lower);
-    if (pair.is_polytope()) {
+    if (planes_turn_ && pair.is_polytope()) {
       result.plane.turning =
           turning_of_normal(found.simplex, found.direction, motion_.a().motion->rotation_vector,
                             motion_.b().motion->rotation_vector);

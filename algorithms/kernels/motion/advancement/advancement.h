@@ -3,7 +3,7 @@
 // Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies; for spheres and
 //             capsules a closed form does (round_cores).
 //          2. If they are within the tolerance, it is a hit. Otherwise the features say how the plane turns
-//             (turning_normal).
+//             (turning_normal), for a step that lets it turn.
 //          3. The step says until when that plane proves them apart; if until the end, it is a miss.
 //          4. Go there, and repeat.
 //          5. Prove contact a little later, for the upper end of the bracket (contact_by).
@@ -23,6 +23,7 @@ struct AdvancementGoal {
   // Metres; without one, 1e-9 of the larger body's size. It is never less than what rounding hides.
   std::optional<double> tolerance;
   int most_steps = 0;
+  bool planes_turn = false;  // whether planes turn with the features that they part
 };
 
 // `Step`: FreeUntil operator()(SupportPair<double>& pair, const PartingPlane& plane), where the pair
@@ -60,7 +61,8 @@ class AdvancementSearch {
                     double cores_apart);
 
   const RelativeMotion& motion_;
-  double tolerance_;              // metres
+  double tolerance_;  // metres
+  bool planes_turn_;
   WarmStart kept_;                // the last look's simplex
   Vec3d normal_ = Vec3d::Zero();  // the last plane's
   Vec3d point_ = Vec3d::Zero();
