@@ -15,8 +15,8 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t stack_size = drawn(10'000, 2'000);
-constexpr std::size_t crowd_size = drawn(12'000, 4'000);
+constexpr std::size_t stack_size = drawn(4'000, 2'000);
+constexpr std::size_t crowd_size = drawn(8'000, 2'500);
 
 struct Sample {
   BoxSet set;

@@ -73,7 +73,7 @@ TEST_P(Changes, AreThoseOfTheTrueChanges) {
     EXPECT_GT(truth.began.size(), 100u);
     for (const Unrest& unrest : unrests) {
       SCOPED_TRACE(unrest.name);
-      for (int frame = 0; frame < drawn(16, 5); ++frame) {
+      for (int frame = 0; frame < drawn(10, 4); ++frame) {
         algorithm->update(bodies.next(unrest));
         truth.call(bodies.boxes());
         ASSERT_NO_FATAL_FAILURE(expect_changes(*algorithm, truth)) << frame;
@@ -95,7 +95,7 @@ TEST_P(Changes, AreThoseSinceTheLastCall) {
   int step = 0, calls = 0;
   for (const Unrest& unrest : unrests) {
     SCOPED_TRACE(unrest.name);
-    for (int round = 0; round < drawn(16, 5); ++round) {
+    for (int round = 0; round < drawn(10, 4); ++round) {
       const FrameChange change = bodies.next(unrest);
       ++step;
       if (step % 37 == 0) {

@@ -54,7 +54,7 @@ const Sequence sequences[] = {
      .teleported = 0.01f,
      .orders = 3},
     {.name = "crowd", .bodies = 150, .side = 1.2f, .moved = 0.03f, .reach = 0.2f},
-    {.name = "great crowd", .bodies = 700, .side = 0.9f, .frames = 20, .teleported = 0.01f},
+    {.name = "great crowd", .bodies = 400, .side = 0.9f, .frames = 20, .teleported = 0.01f},
     {.name = "very small", .drift = 0.0005f, .teleported = 0.01f, .scale = 1e-42f},
     {.name = "very large", .drift = 0.0005f, .teleported = 0.01f, .scale = 1e38f},
     {.name = "few bodies", .bodies = 3, .side = 0.9f, .frames = 300, .teleported = 0.2f},

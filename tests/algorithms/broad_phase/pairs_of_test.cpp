@@ -72,7 +72,7 @@ TEST_P(PairsOf, SomeBodiesAreThoseOfTheTruth) {
     };
     for (const Unrest& unrest : unrests) {
       SCOPED_TRACE(unrest.name);
-      for (int frame = 0; frame < drawn(8, 4); ++frame, ++step) {
+      for (int frame = 0; frame < drawn(6, 3); ++frame, ++step) {
         const FrameChange change = bodies.next(unrest);
         Ids fresh, some, all(change.boxes.size());
         std::ranges::merge(change.moved, change.inserted, std::back_inserter(fresh));
@@ -107,7 +107,7 @@ TEST_P(PairsOf, ChangesOfSomeBodiesAreThoseOfTheTruth) {
   algorithm->build(bodies.boxes());
   for (const Unrest& unrest : unrests) {
     SCOPED_TRACE(unrest.name);
-    for (int frame = 0; frame < drawn(8, 4); ++frame, ++step) {
+    for (int frame = 0; frame < drawn(6, 3); ++frame, ++step) {
       algorithm->update(bodies.next(unrest));
       Ids awake;
       for (std::uint32_t id = 0; id < bodies.boxes().size(); ++id) {

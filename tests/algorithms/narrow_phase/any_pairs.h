@@ -75,7 +75,7 @@ inline std::vector<AnyPair> make_any_pairs(int count) {
 }
 
 inline const std::vector<AnyPair>& any_pairs() {
-  static const std::vector<AnyPair> pairs = make_any_pairs(drawn(24, 6));
+  static const std::vector<AnyPair> pairs = make_any_pairs(drawn(14, 4));
   return pairs;
 }
 

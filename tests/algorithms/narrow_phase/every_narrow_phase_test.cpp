@@ -9,6 +9,7 @@
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/algorithms/narrow_phase/brute_force.h"
+#include "tests/algorithms/one_in.h"
 #include "tests/algorithms/rotation_between.h"
 
 namespace touchstone::every_narrow_phase_test {
@@ -290,7 +291,7 @@ TEST_P(EveryNarrowPhase, AgreesWithTheBruteForce) {
                                        {ShapeKind::box, ShapeKind::hull},
                                        {ShapeKind::hull, ShapeKind::hull}}) {
     int asked = 0, common = 0, wrong = 0, gave_up = 0;
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < drawn(160, 60); ++k) {
       const Shape a = random_polytope(random, kind_a), b = random_polytope(random, kind_b);
       const Pose pose_a{random_rotation(random), random_direction(random)};
       const Pose pose_b{random_rotation(random),

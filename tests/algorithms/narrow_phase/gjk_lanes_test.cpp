@@ -46,7 +46,7 @@ TEST(GjkLanes, AnswerBatchesOfEveryLengthAlike) {
   for (const Kinds kinds :
        {Kinds{ShapeKind::capsule, ShapeKind::box}, Kinds{ShapeKind::hull, ShapeKind::hull},
         Kinds{ShapeKind::hull, ShapeKind::hull, 60}}) {
-    const Pairs pairs = hard_pairs(11, kinds, Sort::plain, drawn(1000, 200));
+    const Pairs pairs = hard_pairs(11, kinds, Sort::plain, drawn(500, 120));
     for (const Precision scalar : scalars) {
       for (const Task task : all_tasks) {
         const std::vector<Outcome> whole = solve(entry(), scalar, task, pairs, pairs.size());

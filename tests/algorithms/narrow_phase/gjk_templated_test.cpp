@@ -135,7 +135,7 @@ TEST(GjkTemplated, HasTheBitsOfGjk) {
     std::array<std::size_t, 4> of_kinds{};
     for (const PoseSort sort : sorts) {
       Pairs pairs;
-      while (pairs.size() < drawn(60, 6)) add_pair(random, kinds, sort, pairs);
+      while (pairs.size() < drawn(36, 6)) add_pair(random, kinds, sort, pairs);
       for (const Precision scalar : scalars) {
         for (const Task task : all_tasks) {
           const std::string what = name(kinds, scalar, task, sort);

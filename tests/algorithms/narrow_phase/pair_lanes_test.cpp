@@ -49,7 +49,7 @@ TEST(PairLanes, HaveTheSameBitsAtEveryLevel) {
   const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {
-      const Pairs pairs = hard_pairs(2, kinds, sort, drawn(200, 40));
+      const Pairs pairs = hard_pairs(2, kinds, sort, drawn(120, 30));
       for (const Precision scalar : scalars) {
         for (const Task task : entry.tasks) {
           if (!offers(entry, kinds.a, kinds.b, task)) continue;
@@ -119,7 +119,7 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
   oracle::Oracle oracle;
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {
-      const Pairs pairs = hard_pairs(3, kinds, sort, drawn(400, 80));
+      const Pairs pairs = hard_pairs(3, kinds, sort, drawn(240, 60));
       std::vector<oracle::Solid> solids;
       for (const Shape& shape : pairs.shapes) solids.emplace_back(shape);
       std::vector<oracle::Measure> truths;

@@ -14,7 +14,7 @@ struct NamedMesh {
 };
 
 std::vector<NamedMesh> meshes() {
-  std::vector<NamedMesh> all = {{"torus", torus(1, 0.3, 24, 12)}, {"angle", angle_bracket()}};
+  std::vector<NamedMesh> all = {{"torus", torus(1, 0.3, 16, 10)}, {"angle", angle_bracket()}};
   for (bool inside_out : {false, true}) all.push_back({"hollow cube", hollow_cube(inside_out)});
   base::Random random(3);
   const Mat3d turn = random.rotation();
@@ -111,20 +111,6 @@ TEST(Meshes, PartsComeNearTheSolid) {
   EXPECT_NEAR(hull.lost, 0, 1e-9);
   EXPECT_NEAR(hull.hausdorff, 0.5, hull.hausdorff_deviation);
   EXPECT_EQ(hull.volume_deviation, 0);
-
-  const geometry::Mesh ring = torus(1, 0.2, 32, 16);
-  double before = 10;
-  for (int most : {1, 4, 8, 16}) {
-    const auto pieces = proxies::represent(hull_of(ring), &ring,
-                                           {proxies::Form::parts, proxies::Side::outer, most});
-    EXPECT_LE(pieces.size(), static_cast<std::size_t>(most));
-    const proxies::RepresentationError e =
-        proxies::representation_error(hull_of(ring), &ring, pieces);
-    EXPECT_LT(e.added, before) << most;
-    EXPECT_LT(e.lost, 1e-9);
-    before = e.added;
-  }
-  EXPECT_LT(before, 0.05);
 }
 
 TEST(Meshes, ACavityIsNoPartOfThem) {
@@ -158,15 +144,21 @@ TEST(Meshes, ACavityIsNoPartOfThem) {
 
 // Cuts beside vertices leave points that almost coincide, in which Qhull finds no faces.
 TEST(Meshes, ARingIsCutIntoSectors) {
-  const geometry::Mesh ring = torus(1, 0.2, 32, 16);
+  const geometry::Mesh ring = torus(1, 0.2, 24, 12);
+  double before = 10;
   for (const auto& [most, added] :
-       {std::pair(0, 0.05), std::pair(8, 0.25), std::pair(16, 0.05), std::pair(32, 0.02)}) {
+       {std::pair(1, 2.5), std::pair(8, 0.25), std::pair(0, 0.08), std::pair(16, 0.05)}) {
     const auto parts = proxies::represent(hull_of(ring), &ring,
                                           {proxies::Form::parts, proxies::Side::outer, most});
+    if (most > 0) {
+      EXPECT_LE(parts.size(), static_cast<std::size_t>(most));
+    }
     const proxies::RepresentationError e =
         proxies::representation_error(hull_of(ring), &ring, parts);
     EXPECT_LT(e.added, added) << most;
-    EXPECT_EQ(e.lost, 0) << most;
+    EXPECT_LT(e.added, before) << most;
+    EXPECT_LT(e.lost, 1e-9);
+    before = e.added;
   }
 }
 

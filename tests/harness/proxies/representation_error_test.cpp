@@ -106,7 +106,7 @@ TEST(RepresentationError, IsOffByItsStandardError) {
     part.pose.translation = centre;
     return part;
   };
-  constexpr int draws = 100;
+  constexpr int draws = 40;
   double one = 0, two = 0;
   for (int i = 0; i < draws; ++i) {
     // A ball that crosses the body.
