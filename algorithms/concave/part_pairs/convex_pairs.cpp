@@ -62,7 +62,8 @@ void ConvexPairs::bind(std::span<const BoundBody> bodies) {
     first_part_.push_back(static_cast<std::uint32_t>(parts_.size()));
     for (const ConvexPart& part : body.given->parts) parts_.push_back(part.shape);
   }
-  for_parts_->bind(parts_);
+  if (for_parts_ == nullptr && !parts_.empty()) for_parts_ = make_();
+  if (for_parts_ != nullptr) for_parts_->bind(parts_);
 }
 
 void ConvexPairs::add(const Shape& shape, std::uint32_t number, const Pose& pose,
@@ -116,7 +117,10 @@ std::span<const Outcome> ConvexPairs::solve(Task task, const BoundBody& a, const
     second_.push_back(in_b);
   }
   for (const IndexPair& pair : pairs) number_in_a_[pair.a] = number_in_b_[pair.b] = none;
-  if (has_triangles_) for_triangles_->bind(shapes_);
+  if (has_triangles_) {
+    if (for_triangles_ == nullptr) for_triangles_ = make_();
+    for_triangles_->bind(shapes_);
+  }
   asked_.resize(pairs.size());
   std::iota(asked_.begin(), asked_.end(), 0u);
   outcomes_.resize(pairs.size());

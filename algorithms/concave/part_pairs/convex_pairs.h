@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "algorithms/concave/part_pairs/bound_body.h"
@@ -15,8 +16,8 @@ namespace touchstone {
 
 class ConvexPairs {
  public:
-  explicit ConvexPairs(const std::function<std::unique_ptr<NarrowPhase>()>& make)
-      : for_parts_(make()), for_triangles_(make()) {}
+  explicit ConvexPairs(std::function<std::unique_ptr<NarrowPhase>()> make)
+      : make_(std::move(make)) {}
 
   // The bodies stay alive, and their parts unchanged.
   void bind(std::span<const BoundBody> bodies);
@@ -45,6 +46,8 @@ class ConvexPairs {
   bool add_scaled(std::uint32_t pair);
   void consider_rounding(Task task, std::uint32_t pair);
 
+  std::function<std::unique_ptr<NarrowPhase>()> make_;
+  // Both are null until they are needed: what they work with is larger than a small mesh.
   std::unique_ptr<NarrowPhase> for_parts_;      // knows all convex parts
   std::unique_ptr<NarrowPhase> for_triangles_;  // knows the shapes of the last batch with triangles
   std::span<const BoundBody> bodies_;

@@ -37,7 +37,7 @@ struct LeafTest {
   bool visit(std::uint32_t number) const {
     const auto leaf = mesh.tree.leaf(number);
     TriangleBlock moved;
-    move(mesh.blocks[number], map, moved);
+    mesh.blocks.move(number, map, moved);
     const LaneVerdicts found = compare(convex, moved, (1u << leaf.size()) - 1, error);
     std::array<std::uint32_t, WideBvh::leaf_size> room;
     if (found.yes != 0 && !take(part, chosen(leaf, found.yes, room), false)) return false;

@@ -59,7 +59,8 @@ class FusedPairs final : public MeshPairs {
       const auto parts_a = a.tree.leaf(leaf_a), parts_b = b.tree.leaf(leaf_b);
       if (leaf_b != seen_b) see(leaf_b);
       unsigned lanes_a = (1u << parts_a.size()) - 1, lanes_b = (1u << parts_b.size()) - 1;
-      TriangleBlock moved_a;
+      TriangleBlock room;
+      const TriangleBlock* block_a = &room;
       if (frame.is_of_a) {
         // A coordinate of b is rounded to an eighth of `error`. Two projections are off by twice that of
         // their coordinates, and by 6 u of these by rounding.
@@ -67,16 +68,14 @@ class FusedPairs final : public MeshPairs {
         lanes_b &= reaching(moved_b, a.extents[leaf_a], slack);
         if (lanes_b == 0) return true;
         measure_seen();
-        lanes_a &= reaching(a.blocks[leaf_a], extent_b, slack);
+        block_a = &a.blocks.at(leaf_a, room);
+        lanes_a &= reaching(*block_a, extent_b, slack);
         if (lanes_a == 0) return true;
       } else {
-        move(a.blocks[leaf_a], frame.a, moved_a);
+        a.blocks.move(leaf_a, frame.a, room);
       }
       BlockSigns signs;
-      if (!compare(frame.is_of_a ? a.blocks[leaf_a] : moved_a, lanes_a, moved_b, lanes_b,
-                   frame.error, signs)) {
-        return true;
-      }
+      if (!compare(*block_a, lanes_a, moved_b, lanes_b, frame.error, signs)) return true;
       std::array<IndexPair, TriangleBlock::size * TriangleBlock::size> found;
       std::size_t count = 0;
       const std::uint64_t sure = joined(signs.yes);
@@ -95,7 +94,7 @@ class FusedPairs final : public MeshPairs {
     void see(std::uint32_t leaf_b) {
       seen_b = leaf_b;
       is_measured = false;
-      move(b.blocks[leaf_b], frame.b, moved_b);
+      b.blocks.move(leaf_b, frame.b, moved_b);
     }
 
     void measure_seen() {
@@ -103,7 +102,7 @@ class FusedPairs final : public MeshPairs {
       is_measured = true;
       // Any way serves whose coordinates' magnitudes sum up to 2 at most: what is rounded moves it a
       // little.
-      const Vec3d way = frame.b.rotation * b.extents[seen_b].way;
+      const Vec3d way = frame.b.rotation * BlockExtent(b.extents[seen_b]).way;
       const double sum = way.cwiseAbs().sum();
       extent_b = extent_along(moved_b, sum <= 1.9 ? way : Vec3d(way / sum));
     }

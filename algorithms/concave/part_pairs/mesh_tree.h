@@ -1,20 +1,54 @@
 // Part of part-pairs: meshes in the order of their trees' leaves.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "algorithms/concave/part_pairs/bound_body.h"
 #include "algorithms/kernels/bvh/wide_bvh.h"
 #include "algorithms/kernels/triangles/block_extent.h"
-#include "algorithms/kernels/triangles/triangle_block.h"
+#include "algorithms/kernels/triangles/moved_block.h"
 
 namespace touchstone {
+
+// The triangles of a mesh, a block a leaf: as floats if all its coordinates are floats, which takes half the
+// memory, and as doubles otherwise.
+class LeafBlocks {
+ public:
+  LeafBlocks() = default;
+  LeafBlocks(const TriangleMesh& mesh, std::span<const std::uint32_t> order) {
+    const bool are_floats = std::ranges::all_of(
+        mesh.vertices, [](const Vec3d& v) { return v == v.cast<float>().cast<double>(); });
+    if (are_floats) {
+      floats_ = triangle_blocks<float>(mesh, order);
+    } else {
+      doubles_ = triangle_blocks<double>(mesh, order);
+    }
+  }
+
+  std::size_t size() const { return floats_.size() + doubles_.size(); }
+  // The block of a leaf, which may lie in `room`.
+  const TriangleBlock& at(std::size_t leaf, TriangleBlock& room) const {
+    if (floats_.empty()) return doubles_[leaf];
+    widen(floats_[leaf], room);
+    return room;
+  }
+  // The block of a leaf under a pose.
+  void move(std::size_t leaf, const Pose& pose, TriangleBlock& moved) const {
+    if (floats_.empty()) return touchstone::move(doubles_[leaf], pose, moved);
+    touchstone::move(floats_[leaf], pose, moved);
+  }
+
+ private:
+  std::vector<FloatTriangleBlock> floats_;
+  std::vector<TriangleBlock> doubles_;
+};
 
 // Without nodes where the body is no mesh.
 struct MeshTree {
   WideBvh tree;
-  std::vector<TriangleBlock> blocks;  // one a leaf
-  std::vector<BlockExtent> extents;   // of the blocks, along their normals
+  LeafBlocks blocks;
+  std::vector<FloatExtent> extents;  // of the blocks, along their normals
 };
 using MeshTrees = std::vector<MeshTree>;  // one a body
 
@@ -22,9 +56,12 @@ inline MeshTree mesh_tree(const BoundBody& body) {
   MeshTree made;
   if (body.mesh() == nullptr) return made;
   made.tree = build_wide_bvh(body.boxes);
-  made.blocks = triangle_blocks(*body.mesh(), made.tree.order);
+  made.blocks = LeafBlocks(*body.mesh(), made.tree.order);
   made.extents.reserve(made.blocks.size());
-  for (const TriangleBlock& block : made.blocks) made.extents.push_back(extent_along_normal(block));
+  TriangleBlock room;
+  for (std::size_t leaf = 0; leaf < made.blocks.size(); ++leaf) {
+    made.extents.push_back(float_extent_along_normal(made.blocks.at(leaf, room)));
+  }
   return made;
 }
 

@@ -65,8 +65,8 @@ struct Search {
     const auto count_a = static_cast<unsigned>(tree_a.tree.leaf(leaf_a).size());
     const auto count_b = static_cast<unsigned>(tree_b.tree.leaf(leaf_b).size());
     TriangleBlock in_a, in_b;
-    move(tree_a.blocks[leaf_a], frame.a, in_a);
-    move(tree_b.blocks[leaf_b], frame.b, in_b);
+    tree_a.blocks.move(leaf_a, frame.a, in_a);
+    tree_b.blocks.move(leaf_b, frame.b, in_b);
     const NearTriangles near = near_triangles(in_a, count_a, in_b, count_b, way, upper + rounding);
     // Pairs wait until there are eight.
     TriangleBlock wait_a, wait_b;
@@ -169,7 +169,8 @@ struct Search {
 
   LeafBox measure(bool of_b, std::uint32_t leaf) const {
     const Pose& pose = of_b ? turned.b : turned.a;
-    const BlockBox ends = box_along((of_b ? tree_b : tree_a).blocks[leaf], pose.rotation);
+    TriangleBlock room;
+    const BlockBox ends = box_along((of_b ? tree_b : tree_a).blocks.at(leaf, room), pose.rotation);
     LeafBox box;
     for (std::size_t k = 0; k < 3; ++k) {
       const double middle = (ends.low[k] + ends.high[k]) / 2;

@@ -3,7 +3,8 @@
 //          1997; Guigue, Devillers, JGT 2003; mesh_pairs.h and kernels/triangles have those of the
 //          signs of volumes.
 // Steps:   1. Bind: boxes of all parts go to the mid-phase; `fused` builds trees of its own for
-//             meshes, and gives boxes to the mid-phase when two bodies of convex parts are asked.
+//             meshes, with their corners in floats where all of them are floats, and gives boxes to the
+//             mid-phase when two bodies of convex parts are asked.
 //          2. Two meshes: pairs of triangles are decided by the signs of volumes in doubles, and in
 //             integers where rounding hides a sign. `fused` first looks for a plane between their hulls
 //             (hull_separation), and then descends trees of its own, with boxes in
@@ -25,7 +26,8 @@
 // Fails:   poses of parts within turned compounds are rounded; where that hides a verdict the answer
 //          is unknown and the status degenerate. Each pair in which rounding hides a sign costs some
 //          microseconds, so that a mesh on itself is slow.
-// Cost:    two meshes: O(log n + k) where little meets, k = pairs of leaves that are near.
+// Cost:    two meshes: O(log n + k) where little meets, k = pairs of leaves that are near. `fused` holds
+//             about 56 bytes a triangle, or 92 if a coordinate is no float.
 #include <algorithm>
 #include <optional>
 #include <utility>

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "algorithms/core/aabb.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
@@ -55,13 +56,26 @@ BlockExtent extent_along(const TriangleBlock& block, const Vec3d& way) {
   return {way, low, high};
 }
 
-BlockExtent extent_along_normal(const TriangleBlock& block) {
+namespace {
+// The way of the triangles' normals, or zero.
+Vec3d common_normal(const TriangleBlock& block) {
   Vec3d sum = Vec3d::Zero();
   for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
     const Vec3d corner = block.corner(lane, 0);
     sum += (block.corner(lane, 1) - corner).cross(block.corner(lane, 2) - corner);
   }
-  return extent_along(block, sum.stableNormalized());
+  return sum.stableNormalized();
+}
+}  // namespace
+
+BlockExtent extent_along_normal(const TriangleBlock& block) {
+  return extent_along(block, common_normal(block));
+}
+
+FloatExtent float_extent_along_normal(const TriangleBlock& block) {
+  const Eigen::Vector3f way = common_normal(block).cast<float>();
+  const BlockExtent extent = extent_along(block, way.cast<double>());
+  return {{way[0], way[1], way[2]}, round_down(extent.low), round_up(extent.high)};
 }
 
 BlockBox box_along(const TriangleBlock& block, const Mat3d& ways) {

@@ -21,6 +21,16 @@ BlockExtent extent_along(const TriangleBlock& block, const Vec3d& way);
 // Along the sum of the triangles' normals; the way is zero if that is zero.
 BlockExtent extent_along_normal(const TriangleBlock& block);
 
+// An extent in floats, whose ends are rounded outwards.
+struct FloatExtent {
+  std::array<float, 3> way;
+  float low, high;
+
+  operator BlockExtent() const { return {Vec3d(way[0], way[1], way[2]), low, high}; }
+};
+// As extent_along_normal.
+FloatExtent float_extent_along_normal(const TriangleBlock& block);
+
 // The ends of a block along each row of a matrix (metres); NaN if a corner is not finite.
 struct BlockBox {
   std::array<double, 3> low, high;

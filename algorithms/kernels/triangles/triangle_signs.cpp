@@ -40,13 +40,4 @@ bool compare(const TriangleBlock& a, unsigned lanes_a, const TriangleBlock& b, u
   return baseline::compare_blocks(a, lanes_a, b, lanes_b, error, signs);
 }
 
-void move(const TriangleBlock& block, const Pose& pose, TriangleBlock& moved) {
-  switch (isa()) {
-    case Isa::avx512: return avx512::move_block(block, pose, moved);
-    case Isa::avx2: return avx2::move_block(block, pose, moved);
-    case Isa::baseline: break;
-  }
-  baseline::move_block(block, pose, moved);
-}
-
 }  // namespace touchstone

@@ -28,7 +28,4 @@ struct BlockSigns {
 bool compare(const TriangleBlock& a, unsigned lanes_a, const TriangleBlock& b, unsigned lanes_b,
              double error, BlockSigns& signs);
 
-// The block under a pose, in doubles.
-void move(const TriangleBlock& block, const Pose& pose, TriangleBlock& moved);
-
 }  // namespace touchstone

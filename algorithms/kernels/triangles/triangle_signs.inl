@@ -102,20 +102,3 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline bool compare_blocks(const TriangleBl
   }
   return any != 0;
 }
-
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void move_block(const TriangleBlock& block,
-                                                            const Pose& pose,
-                                                            TriangleBlock& moved) {
-  for (std::size_t at = 0; at < TriangleBlock::size; at += Lanes::width) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Points p = points_at(block, k, at);
-      for (int row = 0; row < 3; ++row) {
-        const Vector x = Lanes::broadcast(pose.rotation(row, 0)) * p.x +
-                         Lanes::broadcast(pose.rotation(row, 1)) * p.y +
-                         Lanes::broadcast(pose.rotation(row, 2)) * p.z +
-                         Lanes::broadcast(pose.translation[row]);
-        Lanes::store(&moved.at[3 * k + static_cast<std::size_t>(row)][at], x);
-      }
-    }
-  }
-}

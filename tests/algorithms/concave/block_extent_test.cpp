@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "algorithms/kernels/triangles/moved_block.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 
@@ -36,6 +37,49 @@ std::pair<double, double> ends_of(const TriangleBlock& block, std::size_t lane, 
   const auto along = [&](std::size_t k) { return way.dot(block.corner(lane, k)); };
   const auto [low, high] = std::minmax({along(0), along(1), along(2)});
   return {low, high};
+}
+
+TEST(FloatBlock, MovesAndWidensAsTheSameDoubles) {
+  for (const Isa level : isa_levels()) {
+    limit_isa(level);
+    reference::Random random(10);
+    for (int i = 0; i < 50; ++i) {
+      TriangleBlock block = flat_block(random, random.vector(1), 0.1);
+      FloatTriangleBlock narrow;
+      for (std::size_t row = 0; row < block.at.size(); ++row) {
+        for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
+          narrow.at[row][lane] = static_cast<float>(block.at[row][lane]);
+          block.at[row][lane] = narrow.at[row][lane];
+        }
+      }
+      TriangleBlock wide, moved, moved_wide;
+      widen(narrow, wide);
+      EXPECT_EQ(wide.at, block.at);
+      const Pose pose = {random.rotation(), random.vector(1)};
+      move(narrow, pose, moved);
+      move(block, pose, moved_wide);
+      EXPECT_EQ(moved.at, moved_wide.at);
+    }
+  }
+  limit_isa(isa_of_machine());
+}
+
+TEST(BlockExtent, OfFloatsHoldsTheBlockAndLittleMore) {
+  reference::Random random(12);
+  for (int i = 0; i < 2000 / one_in; ++i) {
+    const TriangleBlock block = flat_block(random, random.vector(1), 0.1);
+    const BlockExtent extent = float_extent_along_normal(block);
+    double low = 1, high = -1;
+    for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
+      const auto [first, last] = ends_of(block, lane, extent.way);
+      low = std::min(low, first);
+      high = std::max(high, last);
+    }
+    EXPECT_LE(extent.low, low + 1e-15);
+    EXPECT_GE(extent.high, high - 1e-15);
+    EXPECT_GT(extent.low, low - 1e-6);
+    EXPECT_LT(extent.high, high + 1e-6);
+  }
 }
 
 TEST(BlockExtent, LeavesOutWhatIsBeyondAndNothingElse) {

@@ -19,13 +19,20 @@ using reference::moved_by;
 
 TEST(MeshPairs, ToriInRandomPoses) {
   reference::Random random(1);
-  const std::array<ConcaveBody, 2> bodies = {body_of(reference::torus(12, 6, 1, 0.3)),
-                                             body_of(reference::torus(9, 5, 0.8, 0.25))};
+  const auto tori = [](double scale) {
+    return std::array{
+        body_of(families::moved(reference::torus(12, 6, 1, 0.3), scale, Vec3d::Zero())),
+        body_of(families::moved(reference::torus(9, 5, 0.8, 0.25), scale, Vec3d::Zero()))};
+  };
+  // Vertices that are floats, and such as are none.
+  const auto floats = tori(1), doubles = tori(1.1);
   int hits = 0;
   const int count = drawn(20, 12);
   for (int i = 0; i < count; ++i) {
     const Pose a = {random.rotation(), random.vector(0.8)};
     const Pose b = {random.rotation(), random.vector(0.8)};
+    const std::array<ConcaveBody, 2> bodies = {(i & 1) != 0 ? doubles[0] : floats[0],
+                                               (i & 2) != 0 ? doubles[1] : floats[1]};
     hits += agreed(bodies, a, b).meets();
   }
   EXPECT_GT(hits, count / 10);
@@ -35,8 +42,9 @@ TEST(MeshPairs, ToriInRandomPoses) {
 // The lists of all mid-phases, from large meshes: too many pairs for the oracle.
 TEST(MeshPairs, EveryMidPhaseGivesTheSameLists) {
   reference::Random random(2);
-  const std::array<ConcaveBody, 2> bodies = {body_of(reference::torus(40, 16, 1, 0.3)),
-                                             body_of(reference::torus(50, 20, 1, 0.3))};
+  const std::array<ConcaveBody, 2> bodies = {
+      body_of(reference::torus(40, 16, 1, 0.3)),
+      body_of(families::moved(reference::torus(50, 20, 1, 0.3), 1.1, Vec3d::Zero()))};
   std::size_t most = 0, least = 1000;
   for (int i = 0; i < drawn(10, 6); ++i) {
     const Pose a = {random.rotation(), random.vector(0.6)};

@@ -3,6 +3,7 @@
 
 #include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/kernels/triangles/exact_triangles.h"
+#include "algorithms/kernels/triangles/moved_block.h"
 #include "algorithms/kernels/triangles/triangle_signs.h"
 #include "algorithms/registry.h"
 #include "harness/families/triangle_pairs.h"
