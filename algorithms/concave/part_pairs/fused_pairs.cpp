@@ -59,8 +59,7 @@ class FusedPairs final : public MeshPairs {
       const auto parts_a = a.tree.leaf(leaf_a), parts_b = b.tree.leaf(leaf_b);
       if (leaf_b != seen_b) see(leaf_b);
       unsigned lanes_a = (1u << parts_a.size()) - 1, lanes_b = (1u << parts_b.size()) - 1;
-      TriangleBlock room;
-      const TriangleBlock* block_a = &room;
+      BlockSigns signs;
       if (frame.is_of_a) {
         // A coordinate of b is rounded to an eighth of `error`. Two projections are off by twice that of
         // their coordinates, and by 6 u of these by rounding.
@@ -68,14 +67,16 @@ class FusedPairs final : public MeshPairs {
         lanes_b &= reaching(moved_b, a.extents[leaf_a], slack);
         if (lanes_b == 0) return true;
         measure_seen();
-        block_a = &a.blocks.at(leaf_a, room);
-        lanes_a &= reaching(*block_a, extent_b, slack);
-        if (lanes_a == 0) return true;
+        const bool is_any = a.blocks.with(leaf_a, [&](const auto& block) {
+          lanes_a &= reaching(block, extent_b, slack);
+          return lanes_a != 0 && compare(block, lanes_a, moved_b, lanes_b, frame.error, signs);
+        });
+        if (!is_any) return true;
       } else {
-        a.blocks.move(leaf_a, frame.a, room);
+        TriangleBlock moved_a;
+        a.blocks.move(leaf_a, frame.a, moved_a);
+        if (!compare(moved_a, lanes_a, moved_b, lanes_b, frame.error, signs)) return true;
       }
-      BlockSigns signs;
-      if (!compare(*block_a, lanes_a, moved_b, lanes_b, frame.error, signs)) return true;
       std::array<IndexPair, TriangleBlock::size * TriangleBlock::size> found;
       std::size_t count = 0;
       const std::uint64_t sure = joined(signs.yes);

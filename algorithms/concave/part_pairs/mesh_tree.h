@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algorithms/concave/part_pairs/bound_body.h"
+#include "algorithms/core/nearest_float.h"
 #include "algorithms/kernels/bvh/wide_bvh.h"
 #include "algorithms/kernels/triangles/block_extent.h"
 #include "algorithms/kernels/triangles/moved_block.h"
@@ -17,8 +18,9 @@ class LeafBlocks {
  public:
   LeafBlocks() = default;
   LeafBlocks(const TriangleMesh& mesh, std::span<const std::uint32_t> order) {
-    const bool are_floats = std::ranges::all_of(
-        mesh.vertices, [](const Vec3d& v) { return v == v.cast<float>().cast<double>(); });
+    const bool are_floats = std::ranges::all_of(mesh.vertices, [](const Vec3d& v) {
+      return std::ranges::all_of(v, [](double x) { return nearest_float(x) == x; });
+    });
     if (are_floats) {
       floats_ = triangle_blocks<float>(mesh, order);
     } else {
@@ -27,16 +29,14 @@ class LeafBlocks {
   }
 
   std::size_t size() const { return floats_.size() + doubles_.size(); }
-  // The block of a leaf, which may lie in `room`.
-  const TriangleBlock& at(std::size_t leaf, TriangleBlock& room) const {
-    if (floats_.empty()) return doubles_[leaf];
-    widen(floats_[leaf], room);
-    return room;
+  // Returns what `visit` does of a leaf's block, in floats or doubles.
+  template <class Visit>
+  auto with(std::size_t leaf, const Visit& visit) const {
+    return floats_.empty() ? visit(doubles_[leaf]) : visit(floats_[leaf]);
   }
   // The block of a leaf under a pose.
   void move(std::size_t leaf, const Pose& pose, TriangleBlock& moved) const {
-    if (floats_.empty()) return touchstone::move(doubles_[leaf], pose, moved);
-    touchstone::move(floats_[leaf], pose, moved);
+    with(leaf, [&](const auto& block) { touchstone::move(block, pose, moved); });
   }
 
  private:
@@ -58,9 +58,9 @@ inline MeshTree mesh_tree(const BoundBody& body) {
   made.tree = build_wide_bvh(body.boxes);
   made.blocks = LeafBlocks(*body.mesh(), made.tree.order);
   made.extents.reserve(made.blocks.size());
-  TriangleBlock room;
   for (std::size_t leaf = 0; leaf < made.blocks.size(); ++leaf) {
-    made.extents.push_back(float_extent_along_normal(made.blocks.at(leaf, room)));
+    made.extents.push_back(
+        made.blocks.with(leaf, [](const auto& block) { return extent_along_normal(block); }));
   }
   return made;
 }

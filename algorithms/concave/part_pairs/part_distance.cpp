@@ -169,8 +169,9 @@ struct Search {
 
   LeafBox measure(bool of_b, std::uint32_t leaf) const {
     const Pose& pose = of_b ? turned.b : turned.a;
-    TriangleBlock room;
-    const BlockBox ends = box_along((of_b ? tree_b : tree_a).blocks.at(leaf, room), pose.rotation);
+    const BlockBox ends = (of_b ? tree_b : tree_a).blocks.with(leaf, [&](const auto& block) {
+      return box_along(block, pose.rotation);
+    });
     LeafBox box;
     for (std::size_t k = 0; k < 3; ++k) {
       const double middle = (ends.low[k] + ends.high[k]) / 2;

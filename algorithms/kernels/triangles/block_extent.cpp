@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "algorithms/core/aabb.h"
+#include "algorithms/core/nearest_float.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
@@ -17,7 +18,8 @@ struct BlockEnds {
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/triangles/block_extent.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-void ends_of(const TriangleBlock& block, const Vec3d& way, BlockEnds& ends) {
+template <class Block>
+void ends_of(const Block& block, const Vec3d& way, BlockEnds& ends) {
   switch (isa()) {
     case Isa::avx512: return avx512::ends_of_block(block, way, ends);
     case Isa::avx2: return avx2::ends_of_block(block, way, ends);
@@ -26,7 +28,8 @@ void ends_of(const TriangleBlock& block, const Vec3d& way, BlockEnds& ends) {
   baseline::ends_of_block(block, way, ends);
 }
 
-void ends_along(const TriangleBlock& block, const Mat3d& ways, std::array<BlockEnds, 3>& ends) {
+template <class Block>
+void ends_along(const Block& block, const Mat3d& ways, std::array<BlockEnds, 3>& ends) {
   switch (isa()) {
     case Isa::avx512: return avx512::ends_along_rows(block, ways, ends);
     case Isa::avx2: return avx2::ends_along_rows(block, ways, ends);
@@ -49,36 +52,28 @@ std::pair<double, double> ends_of_all(const BlockEnds& ends) {
 
 }  // namespace
 
-BlockExtent extent_along(const TriangleBlock& block, const Vec3d& way) {
+template <class Scalar>
+BlockExtent extent_along(const TriangleBlockOf<Scalar>& block, const Vec3d& way) {
   BlockEnds ends;
   ends_of(block, way, ends);
   const auto [low, high] = ends_of_all(ends);
   return {way, low, high};
 }
 
-namespace {
-// The way of the triangles' normals, or zero.
-Vec3d common_normal(const TriangleBlock& block) {
+template <class Scalar>
+FloatExtent extent_along_normal(const TriangleBlockOf<Scalar>& block) {
   Vec3d sum = Vec3d::Zero();
   for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
     const Vec3d corner = block.corner(lane, 0);
     sum += (block.corner(lane, 1) - corner).cross(block.corner(lane, 2) - corner);
   }
-  return sum.stableNormalized();
-}
-}  // namespace
-
-BlockExtent extent_along_normal(const TriangleBlock& block) {
-  return extent_along(block, common_normal(block));
-}
-
-FloatExtent float_extent_along_normal(const TriangleBlock& block) {
-  const Eigen::Vector3f way = common_normal(block).cast<float>();
-  const BlockExtent extent = extent_along(block, way.cast<double>());
+  const BlockExtent extent = extent_along(block, nearest_float(sum.stableNormalized()));
+  const Eigen::Vector3f way = extent.way.cast<float>();
   return {{way[0], way[1], way[2]}, round_down(extent.low), round_up(extent.high)};
 }
 
-BlockBox box_along(const TriangleBlock& block, const Mat3d& ways) {
+template <class Scalar>
+BlockBox box_along(const TriangleBlockOf<Scalar>& block, const Mat3d& ways) {
   std::array<BlockEnds, 3> ends;
   ends_along(block, ways, ends);
   BlockBox box;
@@ -88,7 +83,8 @@ BlockBox box_along(const TriangleBlock& block, const Mat3d& ways) {
   return box;
 }
 
-unsigned reaching(const TriangleBlock& block, const BlockExtent& extent, double slack) {
+template <class Scalar>
+unsigned reaching(const TriangleBlockOf<Scalar>& block, const BlockExtent& extent, double slack) {
   switch (isa()) {
     case Isa::avx512: return avx512::reaching_lanes(block, extent, slack);
     case Isa::avx2: return avx2::reaching_lanes(block, extent, slack);
@@ -96,5 +92,14 @@ unsigned reaching(const TriangleBlock& block, const BlockExtent& extent, double 
   }
   return baseline::reaching_lanes(block, extent, slack);
 }
+
+template BlockExtent extent_along(const FloatTriangleBlock&, const Vec3d&);
+template FloatExtent extent_along_normal(const FloatTriangleBlock&);
+template BlockBox box_along(const FloatTriangleBlock&, const Mat3d&);
+template unsigned reaching(const FloatTriangleBlock&, const BlockExtent&, double);
+template BlockExtent extent_along(const TriangleBlock&, const Vec3d&);
+template FloatExtent extent_along_normal(const TriangleBlock&);
+template BlockBox box_along(const TriangleBlock&, const Mat3d&);
+template unsigned reaching(const TriangleBlock&, const BlockExtent&, double);
 
 }  // namespace touchstone

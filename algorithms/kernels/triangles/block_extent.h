@@ -17,9 +17,8 @@ struct BlockExtent {
 };
 
 // Along the given way.
-BlockExtent extent_along(const TriangleBlock& block, const Vec3d& way);
-// Along the sum of the triangles' normals; the way is zero if that is zero.
-BlockExtent extent_along_normal(const TriangleBlock& block);
+template <class Scalar>
+BlockExtent extent_along(const TriangleBlockOf<Scalar>& block, const Vec3d& way);
 
 // An extent in floats, whose ends are rounded outwards.
 struct FloatExtent {
@@ -28,16 +27,19 @@ struct FloatExtent {
 
   operator BlockExtent() const { return {Vec3d(way[0], way[1], way[2]), low, high}; }
 };
-// As extent_along_normal.
-FloatExtent float_extent_along_normal(const TriangleBlock& block);
+// Along the sum of the triangles' normals; the way is zero if that is zero.
+template <class Scalar>
+FloatExtent extent_along_normal(const TriangleBlockOf<Scalar>& block);
 
 // The ends of a block along each row of a matrix (metres); NaN if a corner is not finite.
 struct BlockBox {
   std::array<double, 3> low, high;
 };
-BlockBox box_along(const TriangleBlock& block, const Mat3d& ways);
+template <class Scalar>
+BlockBox box_along(const TriangleBlockOf<Scalar>& block, const Mat3d& ways);
 
 // Returns the bits of the triangles that are not surely beyond the extent's ends by more than `slack`.
-unsigned reaching(const TriangleBlock& block, const BlockExtent& extent, double slack);
+template <class Scalar>
+unsigned reaching(const TriangleBlockOf<Scalar>& block, const BlockExtent& extent, double slack);
 
 }  // namespace touchstone

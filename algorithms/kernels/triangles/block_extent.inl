@@ -7,7 +7,8 @@ struct LaneEnds {
   Vector low, high;
 };
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneEnds ends_at(const TriangleBlock& block, std::size_t at,
+template <class Block>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneEnds ends_at(const Block& block, std::size_t at,
                                                      const Points& way) {
   const Vector p = dot(way, points_at(block, 0, at));
   const Vector q = dot(way, points_at(block, 1, at));
@@ -20,8 +21,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points in_all_lanes(const Vec3d& p) {
   return {Lanes::broadcast(p[0]), Lanes::broadcast(p[1]), Lanes::broadcast(p[2])};
 }
 
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void ends_of_block(const TriangleBlock& block,
-                                                               const Vec3d& way, BlockEnds& ends) {
+template <class Block>
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN void ends_of_block(const Block& block, const Vec3d& way,
+                                                        BlockEnds& ends) {
   for (std::size_t at = 0; at < TriangleBlock::size; at += Lanes::width) {
     const LaneEnds found = ends_at(block, at, in_all_lanes(way));
     Lanes::store(&ends.low[at], found.low);
@@ -29,15 +31,16 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void ends_of_block(const TriangleBlo
   }
 }
 
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline void ends_along_rows(const TriangleBlock& block,
-                                                                 const Mat3d& ways,
-                                                                 std::array<BlockEnds, 3>& ends) {
+template <class Block>
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN void ends_along_rows(const Block& block, const Mat3d& ways,
+                                                          std::array<BlockEnds, 3>& ends) {
   for (int row = 0; row < 3; ++row) ends_of_block(block, ways.row(row), ends[row]);
 }
 
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline unsigned reaching_lanes(const TriangleBlock& block,
-                                                                    const BlockExtent& extent,
-                                                                    double slack) {
+template <class Block>
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN unsigned reaching_lanes(const Block& block,
+                                                             const BlockExtent& extent,
+                                                             double slack) {
   const Vector first = Lanes::broadcast(extent.low - slack);
   const Vector last = Lanes::broadcast(extent.high + slack);
   unsigned beyond = 0;

@@ -9,12 +9,23 @@ struct Points {
   Vector x, y, z;
 };
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points points_at(const TriangleBlock& block, std::size_t corner,
-                                                     std::size_t lane) {
-  return {Lanes::load(&block.at[3 * corner][lane]), Lanes::load(&block.at[3 * corner + 1][lane]),
-          Lanes::load(&block.at[3 * corner + 2][lane])};
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector load_doubles(const double* from) {
+  return Lanes::load(from);
 }
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points point_of(const TriangleBlock& block, std::size_t corner,
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector load_doubles(const float* from) {
+  using Narrow = float __attribute__((vector_size(Lanes::width * sizeof(float))));
+  Narrow x;
+  __builtin_memcpy(&x, from, sizeof x);
+  return __builtin_convertvector(x, Vector);
+}
+template <class Block>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points points_at(const Block& block, std::size_t corner,
+                                                     std::size_t lane) {
+  return {load_doubles(&block.at[3 * corner][lane]), load_doubles(&block.at[3 * corner + 1][lane]),
+          load_doubles(&block.at[3 * corner + 2][lane])};
+}
+template <class Block>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points point_of(const Block& block, std::size_t corner,
                                                     std::size_t lane) {
   return {Lanes::broadcast(block.at[3 * corner][lane]),
           Lanes::broadcast(block.at[3 * corner + 1][lane]),

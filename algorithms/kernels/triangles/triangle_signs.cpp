@@ -30,8 +30,9 @@ struct VolumeBound {
 
 }  // namespace
 
-bool compare(const TriangleBlock& a, unsigned lanes_a, const TriangleBlock& b, unsigned lanes_b,
-             double error, BlockSigns& signs) {
+template <class Scalar>
+bool compare(const TriangleBlockOf<Scalar>& a, unsigned lanes_a, const TriangleBlock& b,
+             unsigned lanes_b, double error, BlockSigns& signs) {
   switch (isa()) {
     case Isa::avx512: return avx512::compare_blocks(a, lanes_a, b, lanes_b, error, signs);
     case Isa::avx2: return avx2::compare_blocks(a, lanes_a, b, lanes_b, error, signs);
@@ -39,5 +40,9 @@ bool compare(const TriangleBlock& a, unsigned lanes_a, const TriangleBlock& b, u
   }
   return baseline::compare_blocks(a, lanes_a, b, lanes_b, error, signs);
 }
+template bool compare(const FloatTriangleBlock&, unsigned, const TriangleBlock&, unsigned, double,
+                      BlockSigns&);
+template bool compare(const TriangleBlock&, unsigned, const TriangleBlock&, unsigned, double,
+                      BlockSigns&);
 
 }  // namespace touchstone

@@ -25,7 +25,8 @@ struct BlockSigns {
 
 // `error` bounds by how much any coordinate of the blocks is off (metres). The triangles whose
 // bits are set in lanes_a and lanes_b are compared. Returns true if any bit is set.
-bool compare(const TriangleBlock& a, unsigned lanes_a, const TriangleBlock& b, unsigned lanes_b,
-             double error, BlockSigns& signs);
+template <class Scalar>
+bool compare(const TriangleBlockOf<Scalar>& a, unsigned lanes_a, const TriangleBlock& b,
+             unsigned lanes_b, double error, BlockSigns& signs);
 
 }  // namespace touchstone

@@ -23,7 +23,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned one_side(const Sign* s) {
 }
 
 // Triangle i of a against the lanes of b from `at` on.
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void compare_lanes(const TriangleBlock& block_a, std::size_t i,
+template <class Block>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void compare_lanes(const Block& block_a, std::size_t i,
                                                        const Points* b, const Points* edge_b,
                                                        const Points& low_b, const Points& high_b,
                                                        Vector error, unsigned wanted, unsigned& yes,
@@ -77,11 +78,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void compare_lanes(const TriangleBlock& bloc
   open &= ~(pierced.yes | pierced.no);
 }
 
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN inline bool compare_blocks(const TriangleBlock& a,
-                                                                unsigned lanes_a,
-                                                                const TriangleBlock& b,
-                                                                unsigned lanes_b, double error,
-                                                                BlockSigns& signs) {
+template <class Block>
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN bool compare_blocks(const Block& a, unsigned lanes_a,
+                                                         const TriangleBlock& b, unsigned lanes_b,
+                                                         double error, BlockSigns& signs) {
   const Vector off = Lanes::broadcast(error);
   signs = {};
   unsigned any = 0;
