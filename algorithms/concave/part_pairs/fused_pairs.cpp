@@ -103,7 +103,7 @@ class FusedPairs final : public MeshPairs {
       is_measured = true;
       // Any way serves whose coordinates' magnitudes sum up to 2 at most: what is rounded moves it a
       // little.
-      const Vec3d way = frame.b.rotation * BlockExtent(b.extents[seen_b]).way;
+      const Vec3d way = frame.b.rotation * b.extents[seen_b].way;
       const double sum = way.cwiseAbs().sum();
       extent_b = extent_along(moved_b, sum <= 1.9 ? way : Vec3d(way / sum));
     }

@@ -48,7 +48,7 @@ class LeafBlocks {
 struct MeshTree {
   WideBvh tree;
   LeafBlocks blocks;
-  std::vector<FloatExtent> extents;  // of the blocks, along their normals
+  std::vector<BlockExtent> extents;  // of the blocks, along their normals
 };
 using MeshTrees = std::vector<MeshTree>;  // one a body
 

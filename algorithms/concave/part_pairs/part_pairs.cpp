@@ -27,7 +27,7 @@
 //          is unknown and the status degenerate. Each pair in which rounding hides a sign costs some
 //          microseconds, so that a mesh on itself is slow.
 // Cost:    two meshes: O(log n + k) where little meets, k = pairs of leaves that are near. `fused` holds
-//             about 56 bytes a triangle, or 92 if a coordinate is no float.
+//             about 58 bytes a triangle, or 94 if a coordinate is no float.
 #include <algorithm>
 #include <optional>
 #include <utility>

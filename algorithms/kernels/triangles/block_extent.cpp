@@ -4,8 +4,6 @@
 #include <tuple>
 #include <utility>
 
-#include "algorithms/core/aabb.h"
-#include "algorithms/core/nearest_float.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
@@ -61,15 +59,13 @@ BlockExtent extent_along(const TriangleBlockOf<Scalar>& block, const Vec3d& way)
 }
 
 template <class Scalar>
-FloatExtent extent_along_normal(const TriangleBlockOf<Scalar>& block) {
+BlockExtent extent_along_normal(const TriangleBlockOf<Scalar>& block) {
   Vec3d sum = Vec3d::Zero();
   for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
     const Vec3d corner = block.corner(lane, 0);
     sum += (block.corner(lane, 1) - corner).cross(block.corner(lane, 2) - corner);
   }
-  const BlockExtent extent = extent_along(block, nearest_float(sum.stableNormalized()));
-  const Eigen::Vector3f way = extent.way.cast<float>();
-  return {{way[0], way[1], way[2]}, round_down(extent.low), round_up(extent.high)};
+  return extent_along(block, sum.stableNormalized());
 }
 
 template <class Scalar>
@@ -94,11 +90,11 @@ unsigned reaching(const TriangleBlockOf<Scalar>& block, const BlockExtent& exten
 }
 
 template BlockExtent extent_along(const FloatTriangleBlock&, const Vec3d&);
-template FloatExtent extent_along_normal(const FloatTriangleBlock&);
+template BlockExtent extent_along_normal(const FloatTriangleBlock&);
 template BlockBox box_along(const FloatTriangleBlock&, const Mat3d&);
 template unsigned reaching(const FloatTriangleBlock&, const BlockExtent&, double);
 template BlockExtent extent_along(const TriangleBlock&, const Vec3d&);
-template FloatExtent extent_along_normal(const TriangleBlock&);
+template BlockExtent extent_along_normal(const TriangleBlock&);
 template BlockBox box_along(const TriangleBlock&, const Mat3d&);
 template unsigned reaching(const TriangleBlock&, const BlockExtent&, double);
 

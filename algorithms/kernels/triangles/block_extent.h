@@ -20,16 +20,9 @@ struct BlockExtent {
 template <class Scalar>
 BlockExtent extent_along(const TriangleBlockOf<Scalar>& block, const Vec3d& way);
 
-// An extent in floats, whose ends are rounded outwards.
-struct FloatExtent {
-  std::array<float, 3> way;
-  float low, high;
-
-  operator BlockExtent() const { return {Vec3d(way[0], way[1], way[2]), low, high}; }
-};
 // Along the sum of the triangles' normals; the way is zero if that is zero.
 template <class Scalar>
-FloatExtent extent_along_normal(const TriangleBlockOf<Scalar>& block);
+BlockExtent extent_along_normal(const TriangleBlockOf<Scalar>& block);
 
 // The ends of a block along each row of a matrix (metres); NaN if a corner is not finite.
 struct BlockBox {
