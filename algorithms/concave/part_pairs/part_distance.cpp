@@ -45,6 +45,18 @@ void add_frame(const Pose& of, double reach_of, const Pose& other, double reach_
                     static_cast<float>(1 - skew - 0x1p-20)});
 }
 
+// The leaf of a mesh that was last seen, in the frame of the search: one of two often comes again.
+struct SeenLeaf {
+  std::uint32_t leaf = std::numeric_limits<std::uint32_t>::max();
+  TriangleBlock moved = {};
+
+  const TriangleBlock& see(const MeshTree& tree, std::uint32_t number, const Pose& pose) {
+    if (number != leaf) tree.blocks.move(number, pose, moved);
+    leaf = number;
+    return moved;
+  }
+};
+
 struct Search {
   const BoundBody &a, &b;
   const MeshTree &tree_a, &tree_b;
@@ -60,13 +72,13 @@ struct Search {
   DescentFrame along = {};
   Mat3d axes = Mat3d::Zero();
   std::uint32_t turns = 0;
+  SeenLeaf seen_a = {}, seen_b = {};
 
   void visit_meshes(std::uint32_t leaf_a, std::uint32_t leaf_b) {
     const auto count_a = static_cast<unsigned>(tree_a.tree.leaf(leaf_a).size());
     const auto count_b = static_cast<unsigned>(tree_b.tree.leaf(leaf_b).size());
-    TriangleBlock in_a, in_b;
-    tree_a.blocks.move(leaf_a, frame.a, in_a);
-    tree_b.blocks.move(leaf_b, frame.b, in_b);
+    const TriangleBlock &in_a = seen_a.see(tree_a, leaf_a, frame.a),
+                        &in_b = seen_b.see(tree_b, leaf_b, frame.b);
     const NearTriangles near = near_triangles(in_a, count_a, in_b, count_b, way, upper + rounding);
     // Pairs wait until there are eight.
     TriangleBlock wait_a, wait_b;

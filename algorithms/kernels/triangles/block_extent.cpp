@@ -16,24 +16,14 @@ struct BlockEnds {
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/triangles/block_extent.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-template <class Block>
-void ends_of(const Block& block, const Vec3d& way, BlockEnds& ends) {
+template <class Block, class Ways, std::size_t count>
+void ends_of(const Block& block, const Ways& ways, std::array<BlockEnds, count>& ends) {
   switch (isa()) {
-    case Isa::avx512: return avx512::ends_of_block(block, way, ends);
-    case Isa::avx2: return avx2::ends_of_block(block, way, ends);
+    case Isa::avx512: return avx512::ends_of_block(block, ways, ends);
+    case Isa::avx2: return avx2::ends_of_block(block, ways, ends);
     case Isa::baseline: break;
   }
-  baseline::ends_of_block(block, way, ends);
-}
-
-template <class Block>
-void ends_along(const Block& block, const Mat3d& ways, std::array<BlockEnds, 3>& ends) {
-  switch (isa()) {
-    case Isa::avx512: return avx512::ends_along_rows(block, ways, ends);
-    case Isa::avx2: return avx2::ends_along_rows(block, ways, ends);
-    case Isa::baseline: break;
-  }
-  baseline::ends_along_rows(block, ways, ends);
+  baseline::ends_of_block(block, ways, ends);
 }
 
 // The ends of all triangles; NaN if one is not finite. Without branches, which nothing foresees.
@@ -52,9 +42,9 @@ std::pair<double, double> ends_of_all(const BlockEnds& ends) {
 
 template <class Scalar>
 BlockExtent extent_along(const TriangleBlockOf<Scalar>& block, const Vec3d& way) {
-  BlockEnds ends;
-  ends_of(block, way, ends);
-  const auto [low, high] = ends_of_all(ends);
+  std::array<BlockEnds, 1> ends;
+  ends_of(block, way.transpose(), ends);
+  const auto [low, high] = ends_of_all(ends[0]);
   return {way, low, high};
 }
 
@@ -71,7 +61,7 @@ BlockExtent extent_along_normal(const TriangleBlockOf<Scalar>& block) {
 template <class Scalar>
 BlockBox box_along(const TriangleBlockOf<Scalar>& block, const Mat3d& ways) {
   std::array<BlockEnds, 3> ends;
-  ends_along(block, ways, ends);
+  ends_of(block, ways, ends);
   BlockBox box;
   for (std::size_t row = 0; row < 3; ++row) {
     std::tie(box.low[row], box.high[row]) = ends_of_all(ends[row]);

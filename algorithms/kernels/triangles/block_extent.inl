@@ -7,12 +7,8 @@ struct LaneEnds {
   Vector low, high;
 };
 
-template <class Block>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneEnds ends_at(const Block& block, std::size_t at,
-                                                     const Points& way) {
-  const Vector p = dot(way, points_at(block, 0, at));
-  const Vector q = dot(way, points_at(block, 1, at));
-  const Vector r = dot(way, points_at(block, 2, at));
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE LaneEnds ends_along(const Points* corners, const Points& way) {
+  const Vector p = dot(way, corners[0]), q = dot(way, corners[1]), r = dot(way, corners[2]);
   const Vector sum = p + q + r, nothing = sum - sum;
   return {Lanes::min(Lanes::min(p, q), r) + nothing, Lanes::max(Lanes::max(p, q), r) + nothing};
 }
@@ -21,20 +17,20 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points in_all_lanes(const Vec3d& p) {
   return {Lanes::broadcast(p[0]), Lanes::broadcast(p[1]), Lanes::broadcast(p[2])};
 }
 
-template <class Block>
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN void ends_of_block(const Block& block, const Vec3d& way,
-                                                        BlockEnds& ends) {
+// The ends along as many ways as `ends` has room for, a row each.
+template <class Block, class Ways, std::size_t count>
+TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN void ends_of_block(const Block& block, const Ways& ways,
+                                                        std::array<BlockEnds, count>& ends) {
   for (std::size_t at = 0; at < TriangleBlock::size; at += Lanes::width) {
-    const LaneEnds found = ends_at(block, at, in_all_lanes(way));
-    Lanes::store(&ends.low[at], found.low);
-    Lanes::store(&ends.high[at], found.high);
+    const Points corners[3] = {points_at(block, 0, at), points_at(block, 1, at),
+                               points_at(block, 2, at)};
+    for (std::size_t row = 0; row < count; ++row) {
+      const LaneEnds found =
+          ends_along(corners, in_all_lanes(ways.row(static_cast<Eigen::Index>(row))));
+      Lanes::store(&ends[row].low[at], found.low);
+      Lanes::store(&ends[row].high[at], found.high);
+    }
   }
-}
-
-template <class Block>
-TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN void ends_along_rows(const Block& block, const Mat3d& ways,
-                                                          std::array<BlockEnds, 3>& ends) {
-  for (int row = 0; row < 3; ++row) ends_of_block(block, ways.row(row), ends[row]);
 }
 
 template <class Block>
@@ -45,7 +41,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN unsigned reaching_lanes(const Block& block,
   const Vector last = Lanes::broadcast(extent.high + slack);
   unsigned beyond = 0;
   for (std::size_t at = 0; at < TriangleBlock::size; at += Lanes::width) {
-    const LaneEnds found = ends_at(block, at, in_all_lanes(extent.way));
+    const Points corners[3] = {points_at(block, 0, at), points_at(block, 1, at),
+                               points_at(block, 2, at)};
+    const LaneEnds found = ends_along(corners, in_all_lanes(extent.way));
     beyond |= (Lanes::to_bits(Lanes::less(last, found.low)) |
                Lanes::to_bits(Lanes::less(found.high, first)))
               << at;
