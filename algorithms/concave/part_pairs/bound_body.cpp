@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "algorithms/core/bounds.h"
+#include "algorithms/core/mesh/skew.h"
 
 namespace touchstone {
 namespace {
@@ -40,8 +41,7 @@ Aabb box_of(const ConvexPart& part, double growth) {
 
 // At least the factor by which the matrix shrinks a vector most; infinite if it may flatten one.
 double shrinking(const Mat3d& rotation) {
-  const Mat3d squares = rotation.transpose() * rotation;
-  const double skew = (squares - Mat3d::Identity()).cwiseAbs().rowwise().sum().maxCoeff();
+  const double skew = skew_of(rotation);
   // No singular value is below the root of 1 - skew.
   if (skew <= 0.5) return 1 + skew;
   const double greatest = rotation.cwiseAbs().maxCoeff();

@@ -5,15 +5,14 @@
 #include <bit>
 #include <utility>
 
+#include "algorithms/core/mesh/skew.h"
+
 namespace touchstone {
 namespace {
 
 // The ball around a core is a ball in the world, whatever the rotation does to the core. In the part's
 // frame it is an ellipsoid, whose points are off from the ball by less than this part of the radius.
-double skew_of(const Mat3d& rotation) {
-  const Mat3d squares = rotation.transpose() * rotation;
-  return (squares - Mat3d::Identity()).cwiseAbs().rowwise().sum().maxCoeff() + 0x1p-50;
-}
+double share_off_ball(const Mat3d& rotation) { return skew_of(rotation) + 0x1p-50; }
 constexpr double greatest_skew = 0.1;
 
 // The triangles of the bits.
@@ -70,8 +69,8 @@ bool ConvexSearch::find(const PlacedConcave& parts, const PlacedConcave& mesh, c
     ComposedPose place = {parts.pose, 0};
     if (!part.is_plain) place = body.place(parts.pose, static_cast<std::uint32_t>(i), part.reach);
     const CommonFrame frame = common_frame(place.pose, part.reach, mesh.pose, reach);
-    const double skew = skew_of(place.pose.rotation);
     const bool is_round = part.convex.radius > 0;
+    const double skew = is_round ? share_off_ball(place.pose.rotation) : 0;
     if (!frame.is_of_a || (is_round && !(skew <= greatest_skew))) return false;
     placed_.push_back({&part, frame.b,
                        frame.error + 2 * place.error + (is_round ? skew * part.convex.radius : 0)});

@@ -17,6 +17,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/core/mesh/skew.h"
+
 namespace touchstone {
 namespace {
 
@@ -36,19 +38,17 @@ struct AboutInverse {
 
 AboutInverse about_inverse(const Mat3d& m) {
   AboutInverse found = {m.transpose(), 0};
-  Mat3d off = found.matrix * m - Mat3d::Identity();
-  const double length = norm(off), rounding = norm(found.matrix) * norm(m) * u;
+  const double length = skew_of(m), rounding = greatest_row_of_turn * greatest_row_of_turn * u;
   found.skew = length + 8 * rounding;
   if (found.skew <= least_skew) return found;
   if (length <= greatest_step) {
-    found.matrix -= off * found.matrix;
+    found.matrix -= (found.matrix * m - Mat3d::Identity()) * found.matrix;
     // Rounded are `off`, its product with the transpose, and the difference.
     found.skew = 1.1 * length * length + 16 * rounding;
     return found;
   }
   found.matrix = m.inverse();
-  off = found.matrix * m - Mat3d::Identity();
-  found.skew = norm(off) + 8 * u * norm(found.matrix) * norm(m);
+  found.skew = norm(found.matrix * m - Mat3d::Identity()) + 8 * u * norm(found.matrix) * norm(m);
   return found;
 }
 
@@ -80,7 +80,8 @@ CommonFrame common_frame(const Pose& a, double reach_a, const Pose& b, double re
   if (skew <= greatest_skew) {
     frame.b.rotation = turned * b.rotation;
     frame.b.translation = turned * offset;
-    frame.error = (16 * u + 1.1 * skew) * norm(turned) * far + tiny;
+    const double length = skew <= least_skew ? greatest_row_of_turn : norm(turned);
+    frame.error = (16 * u + 1.1 * skew) * length * far + tiny;
     if (a.rotation == Mat3d::Identity() && b.rotation == Mat3d::Identity()) {
       frame.error = 8 * u * far + tiny;
     }

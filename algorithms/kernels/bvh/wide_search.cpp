@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/core/mesh/skew.h"
 #include "algorithms/kernels/simd/vector.h"
 
 // A node has eight lanes, which is what the second level has.
@@ -28,44 +29,46 @@ double norm(const Mat3d& m) { return m.cwiseAbs().rowwise().sum().maxCoeff(); }
 
 // The greatest magnitude of a finite coordinate.
 double magnitude(const Vec3d& low, const Vec3d& high) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   double greatest = 0;
   for (int k = 0; k < 3; ++k) {
-    for (const double x : {low[k], high[k]}) {
-      if (std::isfinite(x)) greatest = std::max(greatest, std::abs(x));
+    for (const double x : {std::abs(low[k]), std::abs(high[k])}) {
+      greatest = x > greatest && x < infinite ? x : greatest;
     }
   }
   return greatest;
 }
 
-// The centre of a boundless side is 0, and its half extent infinite.
-SearchBox::Extent extent(const Vec3d& centre, const Vec3d& half, double slack) {
-  SearchBox::Extent made;
+// The centre of a boundless side is 0, and its half extent infinite. Written in place, since a copy waits for the
+// stores.
+void set(SearchBox::Extent& made, const Vec3d& centre, const Vec3d& half, double slack) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<int>(k);
     const bool bounded = std::isfinite(centre[axis]) && std::isfinite(half[axis]);
     made.centre[k] = bounded ? static_cast<float>(centre[axis]) : 0;
-    made.half[k] = bounded ? round_up(half[axis] + slack) : std::numeric_limits<float>::infinity();
+    // Above what it rounds to by a part of 2^24 at least.
+    made.half[k] = bounded ? static_cast<float>((half[axis] + slack) * (1 + 0x1p-23))
+                           : std::numeric_limits<float>::infinity();
   }
-  return made;
 }
 
-// About the inverse of a matrix, what its product with the matrix is off from one, and how many times as long it makes
-// a vector, at most.
+// About the inverse of a matrix, what its product with the matrix is off from one, how many times as long it makes a
+// vector, at most, and bounds on the norms of the matrix and of the inverse.
 struct Inverse {
   Mat3d matrix;
-  double skew, stretch;
+  double skew, stretch, norm, norm_back;
 };
-constexpr double greatest_skew = 1e-6;
+constexpr double greatest_skew = 1e-6;  // for which greatest_row_of_turn holds
 
 Inverse inverse_of(const Mat3d& m) {
-  const Mat3d transposed = m.transpose();
-  const double skew = norm(transposed * m - Mat3d::Identity());
+  const double skew = skew_of(m);
   // The squares of lengths grow by as much as the product is off.
-  if (skew <= greatest_skew) return {transposed, skew, 1 + greatest_skew};
+  if (skew <= greatest_skew)
+    return {m.transpose(), skew, 1 + greatest_skew, greatest_row_of_turn, greatest_row_of_turn};
   // The norm bounds the root of the greatest eigenvalue.
   const Mat3d inverse = m.inverse();
   return {inverse, norm(inverse * m - Mat3d::Identity()),
-          std::sqrt(norm(inverse.transpose() * inverse))};
+          std::sqrt(norm(inverse.transpose() * inverse)), norm(m), norm(inverse)};
 }
 
 }  // namespace
@@ -75,17 +78,19 @@ SearchBox search_box(const Vec3d& low, const Vec3d& high, double radius, const P
   const Mat3d& turn = map.rotation;
   const Inverse inverse = inverse_of(turn);
   const bool has_inverse = inverse.skew <= greatest_skew;
-  const double norm_back = has_inverse ? norm(inverse.matrix) : 0;
-  const double all = (1 + norm(turn)) * (1 + norm_back) *
+  const double all = (1 + inverse.norm) * (1 + (has_inverse ? inverse.norm_back : 0)) *
                      (reach + magnitude(low, high) + map.translation.cwiseAbs().sum());
   const double slack = 288 * 0x1p-24 * all + 8 * error + std::numeric_limits<float>::min();
   SearchBox box;
   const Vec3d centre = low / 2 + high / 2, half = high / 2 - low / 2;
-  box.own = extent(centre, half, slack);
-  const Vec3d unknown = Vec3d::Constant(std::numeric_limits<double>::infinity());
-  box.seen = has_inverse ? extent(inverse.matrix * (centre - map.translation),
-                                  inverse.matrix.cwiseAbs() * half, slack)
-                         : extent(unknown, unknown, slack);
+  set(box.own, centre, half, slack);
+  if (has_inverse) {
+    set(box.seen, inverse.matrix * (centre - map.translation), inverse.matrix.cwiseAbs() * half,
+        slack);
+  } else {
+    const Vec3d unknown = Vec3d::Constant(std::numeric_limits<double>::infinity());
+    set(box.seen, unknown, unknown, slack);
+  }
   for (int row = 0; row < 3; ++row) {
     for (int k = 0; k < 3; ++k) {
       box.view.turn[row][k] = static_cast<float>(turn(row, k));
