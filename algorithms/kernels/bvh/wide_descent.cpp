@@ -13,6 +13,7 @@
 #include <bit>
 #include <cmath>
 
+#include "algorithms/core/mesh/skew.h"
 #include "algorithms/kernels/simd/vector.h"
 
 // A node has eight lanes, which is what the second level has.
@@ -26,6 +27,7 @@ namespace {
 
 // Of a pose that is nearly rigid.
 constexpr double greatest_skew = 1e-3;
+constexpr double length_of_turn = greatest_row_of_turn * (1 + greatest_skew);
 
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/wide_descent.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
@@ -50,31 +52,37 @@ double slack_of(double far, double error) {
   return 64 * 0x1p-24 * far + 4 * error + std::numeric_limits<float>::min();
 }
 
-double reach_in(const Pose& pose, double reach) {
-  return pose.rotation.cwiseAbs().rowwise().sum().maxCoeff() * reach +
-         pose.translation.cwiseAbs().maxCoeff();
+double length_of(const Mat3d& turn) { return turn.cwiseAbs().rowwise().sum().maxCoeff(); }
+
+// `length` bounds the sum of magnitudes of each row of the second map, and `far` coordinates of a in the frame.
+DescentFrame frame_of(const CommonFrame& frame, double far, double length, double reach_b) {
+  far += length * reach_b + frame.b.translation.cwiseAbs().maxCoeff();
+  return {.b = view_of(frame.b, slack_of(far, frame.error)),
+          .a = frame.is_of_a ? BoxView{} : view_of(frame.a, 0),
+          .moves_a = !frame.is_of_a};
 }
 
 }  // namespace
 
 DescentFrame descent_frame(const CommonFrame& frame, double reach_a, double reach_b) {
-  const double far = reach_in(frame.a, reach_a) + reach_in(frame.b, reach_b);
-  return {.b = view_of(frame.b, slack_of(far, frame.error)),
-          .a = view_of(frame.a, 0),
-          .moves_a = !frame.is_of_a};
+  const double far = frame.is_of_a ? reach_a
+                                   : length_of(frame.a.rotation) * reach_a +
+                                         frame.a.translation.cwiseAbs().maxCoeff();
+  return frame_of(frame, far, length_of(frame.b.rotation), reach_b);
 }
 
 DescentFrames::DescentFrames(const CommonFrame& frame, double reach_a, double reach_b) {
-  frames_[0] = descent_frame(frame, reach_a, reach_b);
-  if (!frame.is_of_a) return;
   const Mat3d& turn = frame.b.rotation;
-  const double skew =
-      (turn.transpose() * turn - Mat3d::Identity()).cwiseAbs().rowwise().sum().maxCoeff();
-  if (!(skew < greatest_skew)) return;
+  const double skew = frame.is_of_a ? skew_of(turn) : 1;
+  if (!(skew < greatest_skew)) {
+    frames_[0] = descent_frame(frame, reach_a, reach_b);
+    return;
+  }
+  frames_[0] = frame_of(frame, reach_a, length_of_turn, reach_b);
   Pose back;
   back.rotation = turn.transpose();
   back.translation = -(back.rotation * frame.b.translation);
-  const double far = reach_in(back, reach_a) + reach_b;
+  const double far = length_of_turn * reach_a + back.translation.cwiseAbs().maxCoeff() + reach_b;
   const double slack = slack_of(far, 2 * frame.error) + 2 * skew * reach_b;
   frames_[1] = {.b = {}, .a = view_of(back, 0), .moves_a = true, .moves_b = false};
   frames_[1].b.slack = round_up(slack);
