@@ -8,7 +8,9 @@
 //          4. Otherwise z is the normal of a plane that parts them. The gap along it is linear in time: go
 //             to the last time at which it exceeds R, by integers alone. If that is the end, it is a miss.
 //          5. Where the plane gains nothing, the next time is tried by itself; if there is contact,
-//             both are the bracket.
+//             both are the bracket. If neither shows whether there was any between them, as where corners pass each
+//             other, the one time decides at which the bodies are nearest on the line of the path: GJK in
+//             integers finds it, seen along the path.
 //          6. Bodies that turn, cylinders, cones, ellipsoids and half-spaces get an enclosure instead:
 //             conservative advancement with the exact distance of poses that are rounded to double, less what
 //             that can change (enclosure). Contact at the start is decided for the poses that are given.
@@ -16,8 +18,7 @@
 // Departs: nothing is rounded but the results: `lower` down and `upper` up to doubles. A miss and a hit
 //          are exact; the bracket is 2^-80 wide before it is rounded. `toi` is its upper end, rounded. An
 //          enclosure narrows until the path in the bracket is about the tolerance, 1e-9 of the size.
-// Fails:   unknown / not_converged where bodies touch for less than 2^-80 of the time, as corners may that
-//          pass each other, or after 4,000 times. An enclosure is unknown where the bodies come within
+// Fails:   unknown / not_converged after 4,000 times. An enclosure is unknown where the bodies come within
 //          1e-15 of the path without a proof of either, and where curved cores are that deep in each
 //          other. Half-spaces do not turn.
 // Cost:    about a tenth of a millisecond for boxes, some for hulls; an enclosure some tens; allocates.
@@ -105,11 +106,10 @@ Vec3d normal_of(const IntegerVector& z) {
   return normal.normalized();
 }
 
-// A point of both bodies where the search ended in contact at that time, up to rounding.
-Vec3d point_of(const oracle::LinearSearch& search, const Body& a, const Motion& motion_a,
+// A point of both bodies at the contact, up to rounding.
+Vec3d point_of(const oracle::LinearContact& contact, const Body& a, const Motion& motion_a,
                const Body& b, const Motion& motion_b, double time) {
-  const std::vector<oracle::DifferencePoint> feature = search.feature();
-  const std::vector<oracle::Integer>& weights = search.nearest().weights;
+  const auto& [steps, parts, feature, weights] = contact;
   oracle::Integer sum = 0;
   for (const oracle::Integer& weight : weights) sum += weight;
   const oracle::Scaled whole = oracle::scaled(sum);
@@ -145,9 +145,13 @@ void ExactCast::cast(const Body& a, const Motion& motion_a, const Body& b, const
     return;
   }
   outcome.lower = oracle::round_down(impact.lower, exponent);
-  outcome.toi = outcome.upper = oracle::round_up(impact.upper, exponent);
+  // The least number of 2^-64 of a step that is not below.
+  constexpr long finer = 64;
+  const oracle::Integer& parts = impact.contact.parts;
+  const oracle::Integer upper = ((impact.contact.steps << finer) + parts - 1) / parts;
+  outcome.toi = outcome.upper = oracle::round_up(upper, exponent - finer);
   if (impact.plane) outcome.normal = normal_of(*impact.plane);
-  outcome.point = point_of(search, a, motion_a, b, motion_b, outcome.toi);
+  outcome.point = point_of(impact.contact, a, motion_a, b, motion_b, outcome.toi);
 }
 
 // Of two half-spaces none may turn, and of a body and a half-space only the body.

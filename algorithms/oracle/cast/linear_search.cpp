@@ -39,14 +39,60 @@ bool LinearSearch::is_free(const Integer& steps) const {
 
 Integer LinearSearch::steps() const {
   const IntegerVector& z = nearest_.numerator;
-  const Integer square = dot(z, z);
-  const Integer root = root_below(square) + 1;
-  const Integer gap = square - radius_ * nearest_.denominator * root;
-  return gap / (dot(z, cores_.velocity()) * nearest_.denominator) - 1;
+  const Integer square = dot(z, z), speed = dot(z, cores_.velocity()) * nearest_.denominator;
+  const auto steps_with = [&](unsigned bits) {
+    const Integer root = root_below(square << 2 * bits) + 1;
+    const Integer gap = (square << bits) - radius_ * nearest_.denominator * root;
+    return Integer(gap / (speed << bits) - 1);
+  };
+  // Balls that graze each other are nearer than a unit's root tells.
+  Integer found = steps_with(0);
+  if (found < 64 && !radius_.is_zero()) found = steps_with(MovingCores::time_bits * 2);
+  return found;
 }
 
 bool LinearSearch::was_free() const {
   return dot(nearest_.numerator, cores_.velocity()) >= 0 || is_free(-1);
+}
+
+LinearSearch::Passing LinearSearch::passing() const {
+  const IntegerVector& v = cores_.velocity();
+  const Integer square = dot(v, v);
+  // All is seen along the path, `square` times as large, so that the point stands at the origin.
+  const auto seen = [&](const IntegerVector& p) { return square * p - dot(p, v) * v; };
+  std::vector<IntegerVector> simplex;
+  std::vector<MovingCores::Point> known;
+  const auto add = [&](const IntegerVector& n) {
+    known.push_back(cores_.least(n));
+    simplex.push_back(seen(known.back().difference));
+  };
+  add(seen({1, 0, 0}));
+  RationalPoint nearest;
+  for (;;) {
+    ++iterations_;
+    nearest = reduce_to_nearest(simplex);
+    const IntegerVector& z = nearest.numerator;
+    if (is_zero(z)) break;
+    add(z);
+    if (dot(z, simplex.back()) * nearest.denominator < dot(z, z)) continue;
+    simplex.pop_back();
+    break;
+  }
+  const IntegerVector& z = nearest.numerator;
+  const Integer reach = cores_.radius() * square * nearest.denominator;
+  if (dot(z, z) > reach * reach) return {{}, z};
+  LinearContact contact;
+  Integer sum = 0;
+  for (std::size_t i = 0; i < simplex.size(); ++i) {
+    const auto point = std::ranges::find_if(
+        known, [&](const MovingCores::Point& one) { return seen(one.difference) == simplex[i]; });
+    contact.feature.push_back(point->of);
+    contact.steps += nearest.weights[i] * dot(point->difference, v);
+    sum += nearest.weights[i];
+  }
+  contact.parts = sum * square;
+  contact.weights = std::move(nearest.weights);
+  return {std::move(contact), z};
 }
 
 void LinearSearch::find_nearest() {
@@ -78,6 +124,7 @@ LinearImpact find_impact(LinearSearch& search) {
   search.go_to(0);
   if (search.in_contact()) {
     impact.answer = CastAnswer::hit;
+    impact.contact = search.contact();
     if (!is_zero(search.nearest().numerator)) impact.plane = search.nearest().numerator;
     return impact;
   }
@@ -101,10 +148,24 @@ LinearImpact find_impact(LinearSearch& search) {
       if (proven) return impact;
       impact.answer = CastAnswer::hit;
       impact.lower = before;
-      impact.upper = search.time();
+      impact.contact = search.contact();
       return impact;
     }
-    if (!proven && !search.was_free()) return impact;
+    if (!proven && !search.was_free()) {
+      // A contact between the two times lasts for less than a step. The times of contact are an interval, so that the
+      // one time at which the bodies are nearest tells.
+      LinearSearch::Passing passing = search.passing();
+      if (!passing.contact) {
+        impact.answer = CastAnswer::miss;
+        impact.parted.push_back({passing.plane, end});
+      } else if (passing.contact->steps > before * passing.contact->parts &&
+                 passing.contact->steps < search.time() * passing.contact->parts) {
+        impact.answer = CastAnswer::hit;
+        impact.lower = before;
+        impact.contact = *std::move(passing.contact);
+      }
+      return impact;
+    }
     // Without a proof by the plane before the step, the one behind it is.
     impact.parted.push_back({proven ? z : search.nearest().numerator, search.time()});
   }

@@ -12,6 +12,14 @@
 
 namespace touchstone::oracle {
 
+// A point of both balls at a time, `steps` / `parts` steps from the start: the mean of the differences of `feature`,
+// with these weights, is as near to the point that moves as the radii are long together, or nearer.
+struct LinearContact {
+  Integer steps = 0, parts = 1;
+  std::vector<DifferencePoint> feature;
+  std::vector<Integer> weights;
+};
+
 // The difference of the cores at a time, seen from the point that moves past it. All lengths are `scale`
 // times those of the cores, and there are as many steps in a step of their time.
 class LinearSearch {
@@ -21,9 +29,10 @@ class LinearSearch {
 
   const Integer& time() const { return time_; }
   const RationalPoint& nearest() const { return nearest_; }
-  // The points that `nearest` is the mean of, and which of the cores' points they are made of.
-  const std::vector<IntegerVector>& simplex() const { return simplex_; }
+  // Which of the cores' points `nearest` is the mean of.
   std::vector<DifferencePoint> feature() const;
+  // For a time at which the bodies are in contact.
+  LinearContact contact() const { return {time_, scale_, feature(), nearest_.weights}; }
 
   void go_to(const Integer& time);
   bool in_contact() const;
@@ -35,6 +44,14 @@ class LinearSearch {
   // True if there was no contact in the last step of time either. The distance is a convex function of
   // time: where it falls at the end of the step, or a plane parts the bodies at both ends, it is.
   bool was_free() const;
+
+  // Where the cores come nearest on the whole line of the path. Without a contact there, `plane` parts the bodies at all
+  // times. For a scale of 1, and bodies that move.
+  struct Passing {
+    std::optional<LinearContact> contact;
+    IntegerVector plane;
+  };
+  Passing passing() const;
 
  private:
   void find_nearest();
@@ -52,7 +69,8 @@ class LinearSearch {
 // What a search found. Times are in steps of 2^-MovingCores::time_bits.
 struct LinearImpact {
   CastAnswer answer = CastAnswer::unknown;
-  Integer lower = 0, upper = 0;        // of a hit
+  Integer lower = 0;                   // of a hit
+  LinearContact contact;               // of a hit; its time is the upper end
   std::optional<IntegerVector> plane;  // against the normal from a to b, of the last plane
   // The planes that part the bodies, each until a time from the end of the one before it.
   struct Parted {
@@ -62,7 +80,7 @@ struct LinearImpact {
   std::vector<Parted> parted;
 };
 
-// Runs the search. It is left at `upper` of a hit, and at the last plane's time of a miss.
+// Runs the search.
 LinearImpact find_impact(LinearSearch& search);
 
 }  // namespace touchstone::oracle

@@ -63,15 +63,18 @@ class LinearProof {
     certificate_.answer = impact.answer;
     if (impact.answer == CastAnswer::hit) {
       certificate_.lower = {impact.lower, one_time};
-      certificate_.upper = {impact.upper, one_time};
-      if (impact.upper > 0 && cores_.radius().is_zero() && write_fraction(*impact.plane)) return;
-      write_contact(search);
+      const LinearContact& contact = impact.contact;
+      const bool at_start = contact.steps.is_zero();
+      if (!at_start && cores_.radius().is_zero() && write_fraction(*impact.plane)) return;
+      const Integer parts = contact.parts * one_time, common = gcd(contact.steps, parts);
+      certificate_.upper = {contact.steps / common, parts / common};
+      write(contact);
       if (impact.lower > 0 && parts_from_the_start(*impact.plane)) {
         add(*impact.plane, certificate_.lower);
       } else {
         add_all(impact);
       }
-      if (impact.upper > 0) write_feature(impact);
+      if (!at_start) write_feature(impact);
       return;
     }
     if (!impact.parted.empty() && parts_from_the_start(impact.parted.back().plane)) {
@@ -96,10 +99,9 @@ class LinearProof {
     return gap > 0 && gap * gap > cores_.radius() * cores_.radius() * dot(plane, plane);
   }
 
-  void write_contact(const LinearSearch& search) {
-    const std::vector<DifferencePoint> feature = search.feature();
-    for (std::size_t i = 0; i < feature.size(); ++i) {
-      certificate_.closest.push_back({feature[i], search.nearest().weights[i]});
+  void write(const LinearContact& contact) {
+    for (std::size_t i = 0; i < contact.feature.size(); ++i) {
+      certificate_.closest.push_back({contact.feature[i], contact.weights[i]});
     }
   }
 
@@ -111,7 +113,7 @@ class LinearProof {
     LinearSearch search(cores_, iterations_, speed);
     search.go_to(gap);
     if (!search.in_contact()) return false;
-    write_contact(search);
+    write(search.contact());
     const Integer common = gcd(gap, Integer(speed * one_time));
     certificate_.lower = certificate_.upper = {gap / common, speed * one_time / common};
     add(n, certificate_.upper);
@@ -123,7 +125,8 @@ class LinearProof {
     search.go_to(impact.lower);
     const std::vector<DifferencePoint> feature = search.feature();
     const IntegerVector before = search.nearest().numerator;
-    search.go_to(impact.upper);
+    if (impact.contact.parts != 1) return;
+    search.go_to(impact.contact.steps);
     const IntegerVector& v = cores_.velocity();
     const bool closes = dot(before, v) > 0 && dot(search.nearest().numerator, v) > 0;
     if (!closes || feature.size() > 3 || search.feature() != feature) return;

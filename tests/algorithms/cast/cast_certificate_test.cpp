@@ -131,6 +131,52 @@ TEST(CastCertificates, PolytopesThatMeetHaveAnExactTime) {
   EXPECT_GE(fractions + roots, asked * 9 / 10);
 }
 
+// Two corners, two edges that cross, or two balls, that touch at p / q of the time alone, which is no double; and the
+// same a little further out, which never touch.
+TEST(CastCertificates, ContactsOfAnInstantAreExact) {
+  Random random(5);
+  int fractions = 0;
+  for (int i = 0; i < drawn(90, 18); ++i) {
+    const int q = 3 + 2 * (i % 4), p = 1 + i % (q - 1);
+    const double size = std::ldexp(1, random.below(61) - 30);
+    MovingPairCase c;
+    // The centre of b passes this corner, edge or side of the difference of both bodies.
+    Vec3d passed, along;
+    if (i % 3 == 2) {
+      c.a = c.b = round_shape(ShapeKind::sphere, size / 2, 0);
+      passed = {0, size, 0};
+      along = {size, 0, 0};
+    } else {
+      c.a = box_shape(Vec3d::Constant(size / 4));
+      c.b = box_shape({3 * size / 4, 3 * size / 4, 3 * size / 4});
+      passed = {size, size, i % 3 == 0 ? size : size / 8};
+      along = {size, -size, 0};
+    }
+    c.motion_b.displacement = q * along;
+    for (const bool touches : {true, false}) {
+      c.pose_b.translation = passed - p * along;
+      if (!touches)
+        c.pose_b.translation.y() = std::nextafter(c.pose_b.translation.y(), 8 * q * size);
+      SCOPED_TRACE(std::to_string(i) + (touches ? " touches" : " passes"));
+      const Proven proven(c);
+      EXPECT_EQ(proven.fault(), "");
+      const CastOutcome outcome = solve(*find_cast("exact"), c);
+      EXPECT_EQ(outcome.status, Status::ok);
+      ASSERT_EQ(outcome.answer, touches ? CastAnswer::hit : CastAnswer::miss);
+      EXPECT_EQ(proven.certificate.answer, outcome.answer);
+      expect_refused(proven);
+      if (!touches) continue;
+      const double time = static_cast<double>(p) / q;
+      EXPECT_LE(outcome.lower, time);
+      EXPECT_GE(outcome.upper, time);
+      EXPECT_NEAR(outcome.lower, time, 3e-16);
+      EXPECT_NEAR(outcome.upper, time, 3e-16);
+      fractions += is_equal(proven.certificate.upper, {p, q}) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(fractions, 0);
+}
+
 TEST(CastCertificates, PolytopesAnyhow) {
   Random random(2);
   int hits = 0, misses = 0, starts = 0;
