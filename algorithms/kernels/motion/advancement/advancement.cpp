@@ -6,6 +6,7 @@
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/gjk/separation_along.h"
+#include "algorithms/kernels/motion/advancement/box_planes.h"
 #include "algorithms/kernels/motion/advancement/contact_by.h"
 #include "algorithms/kernels/motion/advancement/round_cores.h"
 #include "algorithms/kernels/motion/advancement/turning_normal.h"
@@ -74,6 +75,18 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   // Far from contact a rough plane serves as well. GJK on polytopes ends after a few steps whatever is asked.
   constexpr double share = 0.1;
   const double unit = pair.unit();
+  if (planes_turn_ && are_boxes(pair)) {
+    if (const auto plane =
+            longest_open_plane(pair,
+                               {motion_.displacement(), motion_.a().motion->rotation_vector,
+                                motion_.b().motion->rotation_vector},
+                               tolerance_ / unit)) {
+      Advancement result = apart(pair, time, plane->normal, separation_along(pair, plane->normal));
+      result.plane.turning = plane->turning;
+      ++iterations;
+      if (result.state == Advancement::State::apart) return result;
+    }
+  }
   double open = 0;
   if (!pair.is_polytope()) {
     const Vec3d along = normal_.isZero(0) ? Vec3d(pair.centre_b().stableNormalized()) : normal_;
