@@ -19,7 +19,7 @@ namespace touchstone {
 namespace {
 
 struct RigidStep {
-  static constexpr bool balls_first = true, planes_turn = true;
+  static constexpr bool balls_first = true, lasting_planes = true;
   static FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair,
                         const PartingPlane& plane) {
     return longest_step(motion, pair, plane);

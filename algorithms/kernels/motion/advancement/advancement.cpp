@@ -9,12 +9,16 @@
 #include "algorithms/kernels/motion/advancement/box_planes.h"
 #include "algorithms/kernels/motion/advancement/contact_by.h"
 #include "algorithms/kernels/motion/advancement/round_cores.h"
+#include "algorithms/kernels/motion/advancement/round_planes.h"
 #include "algorithms/kernels/motion/advancement/turning_normal.h"
 
 namespace touchstone {
 
 AdvancementSearch::AdvancementSearch(const RelativeMotion& motion, const AdvancementGoal& goal)
-    : motion_(motion), planes_turn_(goal.planes_turn) {
+    : motion_(motion),
+      pair_motion_{motion.displacement(), motion.a().motion->rotation_vector,
+                   motion.b().motion->rotation_vector},
+      lasting_planes_(goal.lasting_planes) {
   const auto size = [](const MovingBody& body, double reach) {
     return std::max(reach, body.shape->size) + body.shape->radius;
   };
@@ -62,9 +66,12 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
   ++outcome.iterations;
   const ClosestOfRound closest = closest_of_round(pair);
   const double distance = closest.between.norm();
-  const Vec3d normal = distance > 0 ? Vec3d(closest.between / distance) : Vec3d(Vec3d::Zero());
+  Vec3d normal = distance > 0 ? Vec3d(closest.between / distance) : Vec3d(Vec3d::Zero());
   if (pair.unit() * (distance - pair.radius()) <= tolerance_) {
     return hit(pair, {time, closest.on_a, closest.on_b}, normal);
+  }
+  if (lasting_planes_) {
+    normal = lasting_normal(pair, pair_motion_, closest, 1 - time, 0.5 * tolerance_ / pair.unit());
   }
   return apart(pair, time, normal, -normal.dot(pair.support(normal).difference));
 }
@@ -75,12 +82,8 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   // Far from contact a rough plane serves as well. GJK on polytopes ends after a few steps whatever is asked.
   constexpr double share = 0.1;
   const double unit = pair.unit();
-  if (planes_turn_ && are_boxes(pair)) {
-    if (const auto plane =
-            longest_open_plane(pair,
-                               {motion_.displacement(), motion_.a().motion->rotation_vector,
-                                motion_.b().motion->rotation_vector},
-                               tolerance_ / unit)) {
+  if (lasting_planes_ && are_boxes(pair)) {
+    if (const auto plane = longest_open_plane(pair, pair_motion_, tolerance_ / unit)) {
       Advancement result = apart(pair, time, plane->normal, separation_along(pair, plane->normal));
       result.plane.turning = plane->turning;
       ++iterations;
@@ -106,7 +109,7 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   const double upper = inside ? 0.0 : unit * (found.upper - pair.radius());
   if (!inside && upper > tolerance_) {
     Advancement result = apart(pair, time, found.direction, found.lower);
-    if (planes_turn_ && pair.is_polytope()) {
+    if (lasting_planes_ && pair.is_polytope()) {
       result.plane.turning =
           turning_of_normal(found.simplex, found.direction, motion_.a().motion->rotation_vector,
                             motion_.b().motion->rotation_vector);

@@ -14,6 +14,7 @@
 #include "algorithms/core/cast_outcome.h"
 #include "algorithms/kernels/gjk/warm_start.h"
 #include "algorithms/kernels/motion/advancement/contact_by.h"
+#include "algorithms/kernels/motion/advancement/pair_motion.h"
 #include "algorithms/kernels/motion/advancement/parting_step.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
@@ -23,7 +24,9 @@ struct AdvancementGoal {
   // Metres; without one, 1e-9 of the larger body's size. It is never less than what rounding hides.
   std::optional<double> tolerance;
   int most_steps = 0;
-  bool planes_turn = false;  // whether planes turn with the features that they part
+  // Whether planes are those that last, and turn with the features that they part, rather than those of the closest
+  // points.
+  bool lasting_planes = false;
 };
 
 // `Step`: FreeUntil operator()(SupportPair<double>& pair, const PartingPlane& plane), where the pair
@@ -61,8 +64,9 @@ class AdvancementSearch {
                     double cores_apart);
 
   const RelativeMotion& motion_;
+  PairMotion pair_motion_;
   double tolerance_;  // metres
-  bool planes_turn_;
+  bool lasting_planes_;
   WarmStart kept_;                // the last look's simplex
   Vec3d normal_ = Vec3d::Zero();  // the last plane's
   Vec3d point_ = Vec3d::Zero();

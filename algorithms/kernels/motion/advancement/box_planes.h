@@ -13,14 +13,9 @@
 #include <optional>
 
 #include "algorithms/kernels/minkowski/support.h"
+#include "algorithms/kernels/motion/advancement/pair_motion.h"
 
 namespace touchstone {
-
-// How a pair moves at a time: metres, and radians, in the whole time; world axes.
-struct PairMotion {
-  Vec3d velocity;        // of b's centre relative to a's
-  Vec3d turn_a, turn_b;  // angular velocities
-};
 
 struct BoxPlane {
   Vec3d normal;   // unit vector from a to b

@@ -18,6 +18,12 @@ inline bool is_round(SupportPair<double>& pair) {
          pair.b().shape().core <= SupportCore::segment;
 }
 
+// From the centre of a core that is a point or a segment to its end.
+Vec3d half_axis(const PosedShape<double>& shape);
+
+// For segments from -p to p and from offset - q to offset + q, or points.
+ClosestOfRound closest_of_segments(const Vec3d& p, const Vec3d& q, const Vec3d& offset);
+
 // For a pair that is round. The points lie on the cores whatever rounding does to the choice of them.
 ClosestOfRound closest_of_round(SupportPair<double>& pair);
 
