@@ -168,7 +168,7 @@ void AdvancementSearch::finish(double time, CastOutcome& outcome) const {
     }
   }
   // The first try is at the tolerance's depth if the bodies close at the speed of their origins.
-  const double speed = motion_.displacement().norm() + motion_.angle_a() * motion_.reach_a() +
+  const double speed = motion_.speed() + motion_.angle_a() * motion_.reach_a() +
                        motion_.angle_b() * motion_.reach_b();
   if (!(speed > 0)) return;
   if (const auto by = contact_by(motion_, nearest_, 2 * tolerance_ / speed, outcome.iterations)) {

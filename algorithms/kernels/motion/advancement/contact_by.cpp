@@ -29,20 +29,26 @@ bool contact_is_proven(SupportPair<double>& pair, double slack, int& iterations)
 
 namespace {
 
-// Returns true if the two points, which the bodies carry with them, prove contact with the balls inside of
-// the cores.
+// Returns true if the two points, which the bodies carry with them, prove contact with the balls around the cores, or
+// with those inside of them.
 bool carried_points_prove(const RelativeMotion& motion, const NearestPoints& nearest, double time) {
-  const double inner = motion.a().inner_radius() + motion.b().inner_radius();
-  if (!(inner > 0)) return false;
+  const MovingBody &body_a = motion.a(), &body_b = motion.b();
+  const Vec3d &turn_a = body_a.motion->rotation_vector, &turn_b = body_b.motion->rotation_vector;
+  // The acceleration of a point that turns has a constant length.
   const double later = time - nearest.time;
-  const Vec3d a = rotation_by(later * motion.a().motion->rotation_vector) * nearest.a;
-  const Vec3d b = rotation_by(later * motion.b().motion->rotation_vector) * nearest.b;
-  const Vec3d offset = motion.offset(time);
+  const Vec3d speed_a = turn_a.cross(nearest.a), speed_b = turn_b.cross(nearest.b);
+  const double bend =
+      0.5 * later * later * (motion.angle_a() * speed_a.norm() + motion.angle_b() * speed_b.norm());
+  const Vec3d a = nearest.a + later * speed_a, b = nearest.b + later * speed_b;
+  const Vec3d offset = motion.offset(time), apart = a - b - offset;
   const double lengths = a.norm() + b.norm() + offset.norm();
-  const double rounding =
-      2 * (RelativeMotion::pair_rounding * lengths + motion.placement_rounding());
-  return is_in_front_of_ball(a - b - offset, motion.centre_a(time) - motion.centre_b(time) - offset,
-                             inner, rounding);
+  const double doubt =
+      2 * (RelativeMotion::pair_rounding * lengths + motion.placement_rounding() + bend);
+  if (apart.norm() + doubt < body_a.shape->radius + body_b.shape->radius) return true;
+  const double inner = body_a.inner_radius() + body_b.inner_radius();
+  return inner > 0 &&
+         is_in_front_of_ball(apart, motion.centre_a(time) - motion.centre_b(time) - offset, inner,
+                             doubt);
 }
 
 }  // namespace

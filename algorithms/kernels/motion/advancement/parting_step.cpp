@@ -27,12 +27,14 @@ class Reach {
   // Adds the body's centre and core: value is an upper bound on how far they reach along n after h,
   // less the part that is linear in time and the same for all points.
   double value(double h) {
-    const Vec3d m = n_ + h * turn_;
-    support_ = shape_.support(m);
-    return unit_ * m.dot(support_) + h * turn_.dot(centre_);
+    return unit_ * shape_.support_value(n_ + h * turn_) + h * turn_.dot(centre_);
   }
-  // The rate at which the support point of the last call moves along n.
-  double speed() const { return turn_.dot(unit_ * support_ + centre_); }
+  // The same for h = 0. Sets the rate at which the support point moves along n.
+  double value_now(double& rate) {
+    const Vec3d support = unit_ * shape_.support(n_);
+    rate = turn_.dot(support + centre_);
+    return n_.dot(support);
+  }
   double bend() const { return bend_; }
   // The angular velocity relative to n's.
   double fastest() const { return fastest_; }
@@ -40,7 +42,7 @@ class Reach {
  private:
   PosedShape<double>& shape_;
   Vec3d centre_;  // from the body's origin, at the time
-  Vec3d n_, turn_, support_ = Vec3d::Zero();
+  Vec3d n_, turn_;
   double unit_, bend_, fastest_;
 };
 
@@ -78,20 +80,21 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
   double fastest = std::max(of_a.fastest(), of_b.fastest());
   if (!turning.isZero(0)) {
     const Vec3d away = motion.offset(plane.time);
-    const double furthest = std::max(away.norm(), motion.offset(1).norm());
+    const double furthest = std::sqrt(std::max(away.squaredNorm(), motion.offset(1).squaredNorm()));
     const double turn = turning.norm();
     closing -= n.dot(turning.cross(away));
-    bend += turning.cross(n).norm() * (turn * furthest + 2 * motion.displacement().norm());
+    bend += turning.cross(n).norm() * (turn * furthest + 2 * motion.speed());
     fastest = std::max(fastest, turn);
   }
   const double apart = unit * (n.dot(pair.centre_b()) - pair.radius()) - slack;
   const auto gap = [&](double h) {
     return apart + h * closing - of_a.value(h) - of_b.value(h) - 0.5 * h * h * bend;
   };
-  const double now = gap(0);
+  double speed_a = 0, speed_b = 0;
+  const double now = apart - of_a.value_now(speed_a) - of_b.value_now(speed_b);
   double end = std::min(left, greatest_turn / std::max(fastest, 1e-300));
   // gap(h) is at most now + rate h - bend h^2 / 2, which is zero at the guess.
-  const double rate = closing - of_a.speed() - of_b.speed();
+  const double rate = closing - speed_a - speed_b;
   const double root = std::sqrt(rate * rate + 2 * bend * std::max(now, 0.0));
   const double guess =
       rate > 0 ? (bend > 0 ? (rate + root) / bend : end) : 2 * now / std::max(root - rate, 1e-300);

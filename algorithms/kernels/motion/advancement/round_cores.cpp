@@ -28,7 +28,7 @@ ClosestOfRound closest_of_segments(const Vec3d& p, const Vec3d& q, const Vec3d& 
   const double t = within(s * pq - along_q, qq);
   s = within(along_p + t * pq, pp);
   const Vec3d on_a = s * p, on_b = t * q;
-  return {on_a, on_b, offset + on_b - on_a};
+  return {on_a, on_b, offset + on_b - on_a, s, t};
 }
 
 }  // namespace touchstone

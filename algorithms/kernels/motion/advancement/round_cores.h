@@ -7,9 +7,11 @@
 
 namespace touchstone {
 
-// In the pair's unit: each point from its own body's centre, and the vector between them, from a to b.
+// In the pair's unit: each point from its own body's centre, the vector between them, from a to b, and what part of
+// its half axis each point is, in [-1, 1].
 struct ClosestOfRound {
   Vec3d on_a, on_b, between;
+  double part_a, part_b;
 };
 
 // True if both bodies are spheres or capsules.

@@ -26,9 +26,8 @@ Vec3d lasting_normal(SupportPair<double>& pair, const PairMotion& motion, const 
   const Vec3d velocity = motion.velocity / pair.unit();
   const Vec3d& offset = pair.centre_b();
   const double radius = pair.radius();
-  const auto part = [](const Vec3d& on, const Vec3d& axis) {
-    return axis.isZero(0) ? 0 : on.dot(axis) / axis.squaredNorm();
-  };
+  // A step of h loses bend h^2 / 2 to the bodies' turning.
+  const double bend = p.acceleration.norm() + q.acceleration.norm();
 
   Vec3d best = Vec3d::Zero();
   ClosestOfRound closest = now;
@@ -44,8 +43,8 @@ Vec3d lasting_normal(SupportPair<double>& pair, const PairMotion& motion, const 
                           std::abs(normal.dot(q.start)) - radius >
                       least_gap;
     if (open || k == 0) best = normal;
-    const double s = part(closest.on_a, p.at(time)), t = part(closest.on_b, q.at(time));
-    const double rate = normal.dot(velocity + t * q.velocity_at(time) - s * p.velocity_at(time));
+    const double rate = normal.dot(velocity + closest.part_b * q.velocity_at(time) -
+                                   closest.part_a * p.velocity_at(time));
     const double gap = distance - radius;
     double next = left;
     if (rate < 0) {
@@ -60,8 +59,8 @@ Vec3d lasting_normal(SupportPair<double>& pair, const PairMotion& motion, const 
     if (!(next < parting)) {
       next = approaching + (parting - approaching) * approach / (approach - part_rate);
     }
-    // A normal that is off by the change of the gap loses the square of that.
-    if (!(std::abs(gap * gap) > least_gap) || next == time) break;
+    // A normal that is off by the change of the gap loses the square of that; the bodies' turning loses as much.
+    if (!(gap * gap > std::max(least_gap, 0.5 * bend * time * time)) || next == time) break;
     time = next;
     closest = closest_of_segments(p.at(time), q.at(time), offset + time * velocity);
   }
