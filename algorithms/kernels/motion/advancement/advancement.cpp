@@ -83,12 +83,8 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   constexpr double share = 0.1;
   const double unit = pair.unit();
   if (lasting_planes_ && are_boxes(pair)) {
-    if (const auto plane = longest_open_plane(pair, pair_motion_, tolerance_ / unit)) {
-      Advancement result = apart(pair, time, plane->normal, separation_along(pair, plane->normal));
-      result.plane.turning = plane->turning;
-      ++iterations;
-      if (result.state == Advancement::State::apart) return result;
-    }
+    ++iterations;
+    if (const auto found = look_at_pair_of_boxes(pair, time)) return *found;
   }
   double open = 0;
   if (!pair.is_polytope()) {
@@ -125,6 +121,23 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   const DifferencePoint<double> mean = weighted_mean(simplex);
   return hit(pair, {time, mean.a, mean.b - pair.centre_b()},
              found.nearest.inside ? Vec3d(Vec3d::Zero()) : Vec3d(-nearest.direction));
+}
+
+std::optional<Advancement> AdvancementSearch::look_at_pair_of_boxes(SupportPair<double>& pair,
+                                                                    double time) {
+  const BoxLook found = look_at_boxes(pair, pair_motion_, tolerance_ / pair.unit());
+  if (found.state == BoxLook::State::open) {
+    Advancement result = apart(pair, time, found.normal, separation_along(pair, found.normal));
+    result.plane.turning = found.turning;
+    if (result.state == Advancement::State::apart) return result;
+  }
+  if (found.state == BoxLook::State::near) {
+    const double distance = (pair.centre_b() + found.on_b - found.on_a).norm();
+    if (pair.unit() * distance <= tolerance_) {
+      return hit(pair, {time, found.on_a, found.on_b}, found.normal);
+    }
+  }
+  return {};
 }
 
 Advancement AdvancementSearch::hit(const SupportPair<double>& pair, const NearestPoints& found,

@@ -55,6 +55,8 @@ class AdvancementSearch {
   void finish(double time, CastOutcome& outcome) const;
 
  private:
+  // Nothing if GJK must tell.
+  std::optional<Advancement> look_at_pair_of_boxes(SupportPair<double>& pair, double time);
   Advancement look_by_gjk(SupportPair<double>& pair, double time, int& iterations);
   // Notes a hit. Points are from their bodies' centres, in the pair's unit; the normal is zero if it is not
   // known.
