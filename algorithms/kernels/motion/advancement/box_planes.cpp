@@ -39,9 +39,10 @@ class Choice {
   }
   void consider(double gap, double rate, const Axis& axis) {
     constexpr double least_rate = 1e-3;  // a gap that hardly closes lasts for as long as it is wide
-    const double time = gap / std::max(-rate, least_rate * gap);
-    if (!(time > lasts_)) return;
-    lasts_ = time;
+    const double closing = std::max(-rate, least_rate * gap);
+    if (!(gap * closing_ > gap_ * closing)) return;
+    gap_ = gap;
+    closing_ = closing;
     axis_ = axis;
     is_open_ = true;
   }
@@ -53,7 +54,7 @@ class Choice {
   const Axis& axis() const { return axis_; }
 
  private:
-  double least_gap_, lasts_ = -1;
+  double least_gap_, gap_ = 0, closing_ = 1;
   // The widest gap, squared with its sign.
   double widest_ = -std::numeric_limits<double>::infinity();
   bool is_open_ = false;
@@ -63,18 +64,18 @@ class Choice {
 // A box about its centre, in the pair's unit.
 struct Box {
   explicit Box(const PosedShape<double>& shape, double unit)
-      : scale(shape.shape().unit / unit),
-        matrix(shape.matrix()),
-        extents(scale * shape.shape().extents) {}
+      : matrix(shape.matrix()),
+        per_column(unit / shape.shape().unit),
+        extents(shape.shape().extents / per_column) {}
 
   // A vector in the box's axes.
-  Vec3d seen(const Vec3d& v) const { return matrix.transpose() * v / scale; }
+  Vec3d seen(const Vec3d& v) const { return per_column * (matrix.transpose() * v); }
   // The point of the box that is nearest to a point.
   Vec3d nearest(const Vec3d& point) const {
-    return matrix * seen(point).cwiseMax(-extents).cwiseMin(extents) / scale;
+    return per_column * (matrix * seen(point).cwiseMax(-extents).cwiseMin(extents));
   }
   // Half an edge along an axis.
-  Vec3d half_edge(int axis) const { return extents[axis] / scale * matrix.col(axis); }
+  Vec3d half_edge(int axis) const { return extents[axis] * per_column * matrix.col(axis); }
   // The middle of the edge along an axis that is furthest in the direction.
   Vec3d edge_middle(int axis, const Vec3d& direction) const {
     const int k = next(axis), l = next(k);
@@ -84,8 +85,8 @@ struct Box {
     return side(k) + side(l);
   }
 
-  double scale;  // of the columns, up to rounding
   const Mat3d& matrix;
+  double per_column;  // a power of two: one by the length of the columns, up to rounding
   Vec3d extents;
 };
 
@@ -96,7 +97,7 @@ Choice choose_axis(const Box& a, const Box& b, const Vec3d& offset, const Vec3d&
   const Vec3d c = a.seen(offset), v = a.seen(velocity - motion.turn_a.cross(offset));
   const Vec3d d = b.seen(offset), w = b.seen(velocity - motion.turn_b.cross(offset));
   const Vec3d turn = a.seen(motion.turn_b - motion.turn_a);
-  const Mat3d m = a.matrix.transpose() * b.matrix / (a.scale * b.scale);
+  const Mat3d m = a.per_column * b.per_column * (a.matrix.transpose() * b.matrix);
   Mat3d rate, size, size_rate;  // the rates of m, and |m|
   for (int j = 0; j < 3; ++j) {
     rate.col(j) = turn.cross(m.col(j));
@@ -154,13 +155,13 @@ BoxLook look_at_boxes(SupportPair<double>& pair, const PairMotion& motion, doubl
   if (look.state == BoxLook::State::overlap) return look;
   const bool is_open = look.state == BoxLook::State::open;
   if (axis.is_face_of_a()) {
-    look.normal = axis.sense / a.scale * a.matrix.col(axis.of_a);
+    look.normal = axis.sense * a.per_column * a.matrix.col(axis.of_a);
     look.turning = motion.turn_a;
     if (is_open) return look;
     look.on_b = pair.b().support(-look.normal);
     look.on_a = a.nearest(offset + look.on_b);
   } else if (axis.is_face_of_b()) {
-    look.normal = axis.sense / b.scale * b.matrix.col(axis.of_b);
+    look.normal = axis.sense * b.per_column * b.matrix.col(axis.of_b);
     look.turning = motion.turn_b;
     if (is_open) return look;
     look.on_a = pair.a().support(look.normal);
