@@ -71,7 +71,9 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
     return hit(pair, {time, closest.on_a, closest.on_b}, normal);
   }
   if (lasting_planes_) {
-    normal = lasting_normal(pair, pair_motion_, closest, 1 - time, 0.5 * tolerance_ / pair.unit());
+    // The motion is foreseen for a radian at most.
+    const double foreseen = std::min(1 - time, 1 / std::max(motion_.angle_a(), motion_.angle_b()));
+    normal = lasting_normal(pair, pair_motion_, closest, foreseen, 0.5 * tolerance_ / pair.unit());
   }
   return apart(pair, time, normal, -normal.dot(pair.support(normal).difference));
 }
