@@ -108,9 +108,9 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   if (!inside && upper > tolerance_) {
     Advancement result = apart(pair, time, found.direction, found.lower);
     if (lasting_planes_ && pair.is_polytope()) {
-      result.plane.turning =
-          turning_of_normal(found.simplex, found.direction, motion_.a().motion->rotation_vector,
-                            motion_.b().motion->rotation_vector);
+      let_turn(result.plane, turning_of_normal(found.simplex, found.direction,
+                                               motion_.a().motion->rotation_vector,
+                                               motion_.b().motion->rotation_vector));
     }
     return result;
   }
@@ -130,7 +130,7 @@ std::optional<Advancement> AdvancementSearch::look_at_pair_of_boxes(SupportPair<
   const BoxLook found = look_at_boxes(pair, pair_motion_, tolerance_ / pair.unit());
   if (found.state == BoxLook::State::open) {
     Advancement result = apart(pair, time, found.normal, separation_along(pair, found.normal));
-    result.plane.turning = found.turning;
+    let_turn(result.plane, found.turning);
     if (result.state == Advancement::State::apart) return result;
   }
   if (found.state == BoxLook::State::near) {
@@ -157,6 +157,11 @@ Advancement AdvancementSearch::hit(const SupportPair<double>& pair, const Neares
   nearest_ = {time, motion_.centre_a(time) + pair.unit() * found.a,
               motion_.centre_b(time) + pair.unit() * found.b};
   return {Advancement::State::hit, {}};
+}
+
+void AdvancementSearch::let_turn(PartingPlane& plane, const Vec3d& turning) const {
+  constexpr double near = 0.25;
+  if (plane.gap < near * std::min(motion_.reach_a(), motion_.reach_b())) plane.turning = turning;
 }
 
 Advancement AdvancementSearch::apart(const SupportPair<double>& pair, double time,

@@ -61,6 +61,8 @@ class AdvancementSearch {
   // Notes a hit. Points are from their bodies' centres, in the pair's unit; the normal is zero if it is not
   // known.
   Advancement hit(const SupportPair<double>& pair, const NearestPoints& found, const Vec3d& normal);
+  // Lets the plane turn if the bodies are near. From afar the way of their origins past it costs more than corners do.
+  void let_turn(PartingPlane& plane, const Vec3d& turning) const;
   // `cores_apart` is the gap of the cores along the normal, in the pair's unit.
   Advancement apart(const SupportPair<double>& pair, double time, const Vec3d& normal,
                     double cores_apart);
