@@ -1,7 +1,8 @@
 // The loop of conservative advancement: time grows by steps in which the bodies provably stay apart.
 // Used by conservative-advancement, rigid-advancement and bilateral-advancement, which differ in the step.
 // Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies; for spheres and
-//             capsules a closed form does (round_cores).
+//             capsules a closed form does (round_cores). If planes are to last, it is another for boxes (box_planes)
+//             and for round bodies (round_planes).
 //          2. If they are within the tolerance, it is a hit. Otherwise the features say how the plane turns
 //             (turning_normal), for a step that lets it turn.
 //          3. The step says until when that plane proves them apart; if until the end, it is a miss.
