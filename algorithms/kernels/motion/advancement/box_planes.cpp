@@ -5,60 +5,26 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/core/isa.h"
 #include "algorithms/kernels/motion/advancement/round_cores.h"
 #include "algorithms/kernels/motion/advancement/turning_normal.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 namespace {
+
+using simd::Quad;
 
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 
 double sign_of(double x) { return std::copysign(1.0, x); }
 
 struct Axis {
-  int of_a = -1, of_b = -1;  // a face of either, or an edge of each
-  double sense = 1;
+  int of_a, of_b;  // a face of either, the other being -1, or an edge of each
+  double sense;
 
   bool is_face_of_a() const { return of_b < 0; }
   bool is_face_of_b() const { return of_a < 0; }
-};
-
-// The axis whose gap lasts longest, or if none is wide enough, the one with the widest gap.
-class Choice {
- public:
-  explicit Choice(double least_gap) : least_gap_(least_gap) {}
-
-  // Gap and rate are times `length`, of which the square is given. Returns whether the rate is needed.
-  bool is_open(double gap, double square, const Axis& axis) {
-    if (gap > 0 && gap * gap > least_gap_ * least_gap_ * square) return true;
-    if (!is_open_ && gap * std::abs(gap) > widest_ * square) {
-      widest_ = gap * std::abs(gap) / square;
-      axis_ = axis;
-    }
-    return false;
-  }
-  void consider(double gap, double rate, const Axis& axis) {
-    constexpr double least_rate = 1e-3;  // a gap that hardly closes lasts for as long as it is wide
-    const double closing = std::max(-rate, least_rate * gap);
-    if (!(gap * closing_ > gap_ * closing)) return;
-    gap_ = gap;
-    closing_ = closing;
-    axis_ = axis;
-    is_open_ = true;
-  }
-
-  BoxLook::State state() const {
-    if (is_open_) return BoxLook::State::open;
-    return widest_ > -least_gap_ * least_gap_ ? BoxLook::State::near : BoxLook::State::overlap;
-  }
-  const Axis& axis() const { return axis_; }
-
- private:
-  double least_gap_, gap_ = 0, closing_ = 1;
-  // The widest gap, squared with its sign.
-  double widest_ = -std::numeric_limits<double>::infinity();
-  bool is_open_ = false;
-  Axis axis_;
 };
 
 // A box about its centre, in the pair's unit.
@@ -90,57 +56,72 @@ struct Box {
   Vec3d extents;
 };
 
-Choice choose_axis(const Box& a, const Box& b, const Vec3d& offset, const Vec3d& velocity,
-                   const PairMotion& motion, double least_gap) {
-  const Vec3d &p = a.extents, &q = b.extents;
-  // The offset and its rate as seen from a and from b, and the axes of b as seen from a.
-  const Vec3d c = a.seen(offset), v = a.seen(velocity - motion.turn_a.cross(offset));
-  const Vec3d d = b.seen(offset), w = b.seen(velocity - motion.turn_b.cross(offset));
-  const Vec3d turn = a.seen(motion.turn_b - motion.turn_a);
-  const Mat3d m = a.per_column * b.per_column * (a.matrix.transpose() * b.matrix);
-  Mat3d rate, size, size_rate;  // the rates of m, and |m|
-  for (int j = 0; j < 3; ++j) {
-    rate.col(j) = turn.cross(m.col(j));
-    for (int i = 0; i < 3; ++i) {
-      size(i, j) = std::abs(m(i, j));
-      size_rate(i, j) = sign_of(m(i, j)) * rate(i, j);
+// The offset of the centres and its rates as seen from each body, which turns, and how b turns as seen from a; in world
+// axes.
+struct BoxRates {
+  Vec3d offset, offset_rate_a, offset_rate_b, turn;
+};
+
+constexpr double nearly_parallel_square = 0.05 * 0.05;
+
+// A row for the faces of a and for those of b, and one for each edge of a with those of b.
+struct Gaps {
+  static constexpr int rows = 5;
+  double least;
+  // The vectors along the axes, whose signs are the senses; gaps times a length, and the square of that; for how long
+  // gaps last, if they are wide enough, or -1.
+  Quad<double> sense[rows], gap[rows], square[rows], lasts[rows];
+
+  Axis axis(int row, int lane) const {
+    return {row == 1   ? -1
+            : row == 0 ? lane
+                       : row - 2,
+            row == 0 ? -1 : lane, sign_of(sense[row][lane])};
+  }
+};
+
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/motion/advancement/box_gaps.inl"
+#include "algorithms/kernels/simd/foreach_target.inl"
+
+void measure(const Box& a, const Box& b, const BoxRates& rates, Gaps& gaps) {
+  switch (isa()) {
+    case Isa::avx512: avx512::measure_at(a, b, rates, gaps); break;
+    case Isa::avx2: avx2::measure_at(a, b, rates, gaps); break;
+    default: baseline::measure_at(a, b, rates, gaps);
+  }
+}
+
+struct Choice {
+  BoxLook::State state;
+  Axis axis;
+};
+
+// The axis whose gap lasts longest, or if none is wide enough, the one with the widest gap.
+Choice choose(const Gaps& gaps) {
+  int row = 0, lane = 0;
+  double longest = -1;
+  for (int r = 0; r < Gaps::rows; ++r) {
+    for (int k = 0; k < 3; ++k) {
+      const bool longer = gaps.lasts[r][k] > longest;
+      longest = longer ? gaps.lasts[r][k] : longest;
+      row = longer ? r : row;
+      lane = longer ? k : lane;
     }
   }
-  Choice best(least_gap);
-  for (int i = 0; i < 3; ++i) {
-    const Axis axis{i, -1, sign_of(c[i])};
-    const double gap = std::abs(c[i]) - p[i] - size.row(i).dot(q);
-    if (best.is_open(gap, 1, axis)) {
-      best.consider(gap, axis.sense * v[i] - size_rate.row(i).dot(q), axis);
+  if (longest > 0) return {BoxLook::State::open, gaps.axis(row, lane)};
+  double widest = -std::numeric_limits<double>::infinity();  // squared, with its sign
+  for (int r = 0; r < Gaps::rows; ++r) {
+    for (int k = 0; k < 3; ++k) {
+      if (!(gaps.square[r][k] > nearly_parallel_square)) continue;
+      const double gap = gaps.gap[r][k] * std::abs(gaps.gap[r][k]) / gaps.square[r][k];
+      if (!(gap > widest)) continue;
+      widest = gap;
+      row = r;
+      lane = k;
     }
   }
-  for (int j = 0; j < 3; ++j) {
-    const Axis axis{-1, j, sign_of(d[j])};
-    const double gap = std::abs(d[j]) - q[j] - size.col(j).dot(p);
-    if (best.is_open(gap, 1, axis)) {
-      best.consider(gap, axis.sense * w[j] - size_rate.col(j).dot(p), axis);
-    }
-  }
-  constexpr double nearly_parallel = 0.05;
-  for (int i = 0; i < 3; ++i) {
-    const int k = next(i), l = next(k);
-    for (int j = 0; j < 3; ++j) {
-      const int s = next(j), t = next(s);
-      const double square = m(k, j) * m(k, j) + m(l, j) * m(l, j);
-      if (!(square > nearly_parallel * nearly_parallel)) continue;
-      const double along = c[l] * m(k, j) - c[k] * m(l, j);
-      const Axis axis{i, j, sign_of(along)};
-      const double gap = std::abs(along) - p[k] * size(l, j) - p[l] * size(k, j) -
-                         q[s] * size(i, t) - q[t] * size(i, s);
-      if (!best.is_open(gap, square, axis)) continue;
-      const double change = v[l] * m(k, j) + c[l] * rate(k, j) - v[k] * m(l, j) - c[k] * rate(l, j);
-      best.consider(gap,
-                    axis.sense * change - p[k] * size_rate(l, j) - p[l] * size_rate(k, j) -
-                        q[s] * size_rate(i, t) - q[t] * size_rate(i, s),
-                    axis);
-    }
-  }
-  return best;
+  const bool near = widest > -gaps.least * gaps.least;
+  return {near ? BoxLook::State::near : BoxLook::State::overlap, gaps.axis(row, lane)};
 }
 
 }  // namespace
@@ -148,10 +129,16 @@ Choice choose_axis(const Box& a, const Box& b, const Vec3d& offset, const Vec3d&
 BoxLook look_at_boxes(SupportPair<double>& pair, const PairMotion& motion, double least_gap) {
   const Box a(pair.a(), pair.unit()), b(pair.b(), pair.unit());
   const Vec3d& offset = pair.centre_b();
-  const Choice choice = choose_axis(a, b, offset, motion.velocity / pair.unit(), motion, least_gap);
-  const Axis& axis = choice.axis();
+  const Vec3d velocity = motion.velocity / pair.unit();
+  Gaps gaps;
+  gaps.least = least_gap;
+  measure(a, b,
+          {offset, velocity - motion.turn_a.cross(offset), velocity - motion.turn_b.cross(offset),
+           motion.turn_b - motion.turn_a},
+          gaps);
+  const auto [state, axis] = choose(gaps);
   BoxLook look;
-  look.state = choice.state();
+  look.state = state;
   if (look.state == BoxLook::State::overlap) return look;
   const bool is_open = look.state == BoxLook::State::open;
   if (axis.is_face_of_a()) {
