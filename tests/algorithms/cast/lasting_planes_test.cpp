@@ -82,6 +82,28 @@ TEST(LastingPlanes, OfBoxesPartThemOrTellTheirPoints) {
   EXPECT_GT(longer, 2 * shorter);
 }
 
+TEST(LastingPlanes, OfBoxesAreEqualAtEveryLevel) {
+  Random random(54);
+  for (int i = 0; i < drawn(500, 100); ++i) {
+    const MovingPairCase c = families::turning(ShapeKind::box, ShapeKind::box, i % 3, random);
+    const Turning turning(c);
+    SupportPair<double> pair = turning.motion().at(random.uniform(0, 1));
+    std::vector<BoxLook> looks;
+    for (const Isa level : isa_levels()) {
+      limit_isa(level);
+      looks.push_back(look_at_boxes(pair, motion_of(c), 0.1));
+    }
+    limit_isa(isa_of_machine());
+    for (const BoxLook& look : looks) {
+      EXPECT_EQ(look.state, looks[0].state);
+      EXPECT_EQ(look.normal, looks[0].normal);
+      EXPECT_EQ(look.turning, looks[0].turning);
+      EXPECT_EQ(look.on_a, looks[0].on_a);
+      EXPECT_EQ(look.on_b, looks[0].on_b);
+    }
+  }
+}
+
 TEST(LastingPlanes, OfBoxesThatAreNotNumbersTellNothing) {
   MovingPairCase c;
   c.a = c.b = make_box(1, 1, 1);
