@@ -104,10 +104,10 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
     if (rate > 0) return change > 0 ? (rate + root) / change : furthest;
     return 2 * now / std::max(root - rate, 1e-300);
   };
-  // To second order. With the support points fixed the gap is now + rate h - change h^2 / 2, up to third order.
+  // To second order, if anything turns. With the support points fixed the gap is now + rate h - change h^2 / 2, up to third order.
   const double change = change_a + change_b - closing_change;
   double free = 0;
-  if (rate < 0) {
+  if (rate < 0 && bend > 0) {
     const auto gap = [&](double h) {
       return apart + h * closing - of_a.value(h, true) - of_b.value(h, true) +
              0.5 * h * h * (closing_change - h * third / 3);
