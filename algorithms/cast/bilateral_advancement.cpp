@@ -87,7 +87,7 @@ double axis_serves_until(const RelativeMotion& motion, const PartingPlane& plane
 }
 
 struct BilateralStep {
-  static constexpr bool balls_first = true, planes_turn = false;  // the axis keeps its direction
+  static constexpr bool balls_first = true, lasting_planes = false;  // the axis keeps its direction
   static FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair,
                         const PartingPlane& plane);
 };

@@ -19,7 +19,7 @@ namespace touchstone {
 namespace {
 
 struct ConservativeStep {
-  static constexpr bool balls_first = false, planes_turn = false;
+  static constexpr bool balls_first = false, lasting_planes = false;
   static FreeUntil step(const RelativeMotion& motion, SupportPair<double>&,
                         const PartingPlane& plane) {
     const auto turning = [&](const MovingBody& body, double reach) {

@@ -52,6 +52,9 @@ class PosedShape {
   template <class Which = GenericCore>
   Vec3<Scalar> support(const Vec3<Scalar>& direction);
 
+  // How far the core reaches along the direction, from the centre.
+  Scalar support_value(const Vec3<Scalar>& direction);
+
   // Returns true if the core has a corner with that index.
   bool has_corner(std::uint32_t number) const { return number < corners(); }
   // The corner with that index, relative to the centre.
@@ -107,9 +110,11 @@ inline Vec3<Scalar> PosedShape<Scalar>::support(const Vec3<Scalar>& direction) {
   const Core core = Which::of(*shape_);
   const Vec3<Scalar>& e = shape_->extents;
   if (core == Core::point) return Vec3<Scalar>::Zero();
+  if (core == Core::segment) {
+    return std::copysign(e.z(), matrix_.col(2).dot(direction)) * matrix_.col(2);
+  }
   const Vec3<Scalar> d = matrix_.transpose() * direction;
   switch (core) {
-    case Core::segment: return std::copysign(e.z(), d.z()) * matrix_.col(2);
     case Core::box:
       return matrix_ * Vec3<Scalar>{std::copysign(e.x(), d.x()), std::copysign(e.y(), d.y()),
                                     std::copysign(e.z(), d.z())};
@@ -138,9 +143,20 @@ inline Vec3<Scalar> PosedShape<Scalar>::support(const Vec3<Scalar>& direction) {
       vertex_ = shape_->furthest(d);
       return matrix_ * shape_->vertex(vertex_);
     case Core::point:
+    case Core::segment:
     case Core::halfspace: break;  // a half-space has no furthest point: see halfspace.h
   }
   return Vec3<Scalar>::Zero();
+}
+
+template <class Scalar>
+inline Scalar PosedShape<Scalar>::support_value(const Vec3<Scalar>& direction) {
+  const Vec3<Scalar>& e = shape_->extents;
+  switch (shape_->core) {
+    case Core::segment: return e.z() * std::abs(matrix_.col(2).dot(direction));
+    case Core::box: return e.dot((matrix_.transpose() * direction).cwiseAbs());
+    default: return direction.dot(support(direction));
+  }
 }
 
 template <class Scalar>

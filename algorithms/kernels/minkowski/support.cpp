@@ -121,8 +121,17 @@ template <class Scalar>
 SupportPair<Scalar>::SupportPair(const CentreOffset& offset, const SupportShape<Scalar>& a,
                                  const Pose& pose_a, const SupportShape<Scalar>& b,
                                  const Pose& pose_b)
-    : unit_(power_of_two_above(std::max({offset.vector.cwiseAbs().maxCoeff(), 0x1p54 * offset.doubt,
-                                         a.reach(pose_a.rotation), b.reach(pose_b.rotation)}))),
+    : SupportPair(
+          offset,
+          power_of_two_above(std::max({offset.vector.cwiseAbs().maxCoeff(), 0x1p54 * offset.doubt,
+                                       a.reach(pose_a.rotation), b.reach(pose_b.rotation)})),
+          a, pose_a, b, pose_b) {}
+
+template <class Scalar>
+SupportPair<Scalar>::SupportPair(const CentreOffset& offset, double unit,
+                                 const SupportShape<Scalar>& a, const Pose& pose_a,
+                                 const SupportShape<Scalar>& b, const Pose& pose_b)
+    : unit_(unit),
       a_(a, pose_a.rotation, unit_),
       b_(b, pose_b.rotation, unit_),
       centre_b_((offset.vector * (1 / unit_)).template cast<Scalar>()),

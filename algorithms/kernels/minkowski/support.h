@@ -72,6 +72,11 @@ class SupportPair {
   SupportPair(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
               const SupportShape<Scalar>& b, const Pose& pose_b);
 
+  // The same, with the unit: a power of two of which no component of the offset, and no extent of a body, is more than
+  // about twice.
+  SupportPair(const CentreOffset& offset, double unit, const SupportShape<Scalar>& a,
+              const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b);
+
   // Returns the point of the difference of the cores, A - B, that is furthest in the direction, and
   // counts the call.
   template <class CoreOfA = GenericCore, class CoreOfB = GenericCore>

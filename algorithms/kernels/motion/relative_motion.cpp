@@ -8,10 +8,20 @@
 namespace touchstone {
 namespace {
 
-double reach_of(const MovingBody& body) {
-  const double reach = body.shape->centre.stableNorm() + body.shape->size;
-  return reach * stretch_of(body.pose->rotation) * (1 + 1e-12);
+constexpr double beyond_rounding = 1 + 1e-12;
+
+double reach_of(const MovingBody& body, double stretch) {
+  const SupportShape<double>& shape = *body.shape;
+  const double centre = shape.is_centred ? 0 : shape.centre.stableNorm();
+  return (centre + shape.size) * stretch * beyond_rounding;
 }
+
+double extent_of(const MovingBody& body, double stretch) {
+  return body.shape->size * stretch * beyond_rounding + body.shape->radius;
+}
+
+// A bound on the length of a vector, within a factor of two.
+double length_bound(const Vec3d& v) { return v.cwiseAbs().sum(); }
 
 double turning_rounding(double angle, double reach) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -73,12 +83,15 @@ MotionBounds::MotionBounds(const MovingBody& a, const MovingBody& b)
       b_(b),
       offset_(b.pose->translation - a.pose->translation),
       displacement_(b.motion->displacement - a.motion->displacement),
-      reach_a_(reach_of(a)),
-      reach_b_(reach_of(b)),
+      speed_(displacement_.norm()),
       angle_a_(a.motion->rotation_vector.norm()),
       angle_b_(b.motion->rotation_vector.norm()) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  placement_rounding_ = 8 * epsilon * (offset_.stableNorm() + displacement_.stableNorm()) +
+  const double stretch_a = stretch_of(a.pose->rotation), stretch_b = stretch_of(b.pose->rotation);
+  reach_a_ = reach_of(a, stretch_a);
+  reach_b_ = reach_of(b, stretch_b);
+  extent_ = std::max(extent_of(a, stretch_a), extent_of(b, stretch_b));
+  placement_rounding_ = 8 * epsilon * (length_bound(offset_) + length_bound(displacement_)) +
                         turning_rounding(angle_a_, reach_a_) + turning_rounding(angle_b_, reach_b_);
 }
 
@@ -92,7 +105,10 @@ Vec3d RelativeMotion::centre_b(double time) const {
 SupportPair<double> RelativeMotion::at(double time) const {
   const Pose pose_a = {turning_a_.at(time), Vec3d::Zero()};
   const Pose pose_b = {turning_b_.at(time), offset(time)};
-  return {*a().shape, pose_a, *b().shape, pose_b};
+  const CentreOffset centres = centre_offset(*a().shape, pose_a, *b().shape, pose_b);
+  const double unit = power_of_two_above(
+      std::max({centres.vector.cwiseAbs().maxCoeff(), 0x1p54 * centres.doubt, extent()}));
+  return {centres, unit, *a().shape, pose_a, *b().shape, pose_b};
 }
 
 }  // namespace touchstone

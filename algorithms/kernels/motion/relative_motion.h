@@ -62,10 +62,13 @@ class MotionBounds {
   double placement_rounding() const { return placement_rounding_; }
 
   const Vec3d& displacement() const { return displacement_; }                 // of b relative to a
+  double speed() const { return speed_; }                                     // its length
   Vec3d offset(double time) const { return offset_ + time * displacement_; }  // of b's origin
   // Greatest distance of a core's point from the body's origin.
   double reach_a() const { return reach_a_; }
   double reach_b() const { return reach_b_; }
+  // A bound on the extents of both bodies from their centres, within a factor of four of the greater.
+  double extent() const { return extent_; }
   // By how much the bodies turn (radians).
   double angle_a() const { return angle_a_; }
   double angle_b() const { return angle_b_; }
@@ -81,7 +84,7 @@ class MotionBounds {
   MovingBody a_, b_;
   Vec3d offset_;        // from a's origin to b's at time 0
   Vec3d displacement_;  // of b relative to a
-  double reach_a_, reach_b_, angle_a_, angle_b_;
+  double speed_, reach_a_, reach_b_, extent_, angle_a_, angle_b_;
   double placement_rounding_;
 };
 

@@ -6,14 +6,19 @@
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/gjk/separation_along.h"
+#include "algorithms/kernels/motion/advancement/box_planes.h"
 #include "algorithms/kernels/motion/advancement/contact_by.h"
 #include "algorithms/kernels/motion/advancement/round_cores.h"
+#include "algorithms/kernels/motion/advancement/round_planes.h"
 #include "algorithms/kernels/motion/advancement/turning_normal.h"
 
 namespace touchstone {
 
 AdvancementSearch::AdvancementSearch(const RelativeMotion& motion, const AdvancementGoal& goal)
-    : motion_(motion), planes_turn_(goal.planes_turn) {
+    : motion_(motion),
+      pair_motion_{motion.displacement(), motion.a().motion->rotation_vector,
+                   motion.b().motion->rotation_vector},
+      lasting_planes_(goal.lasting_planes) {
   const auto size = [](const MovingBody& body, double reach) {
     return std::max(reach, body.shape->size) + body.shape->radius;
   };
@@ -61,9 +66,14 @@ Advancement AdvancementSearch::look(SupportPair<double>& pair, double time, Cast
   ++outcome.iterations;
   const ClosestOfRound closest = closest_of_round(pair);
   const double distance = closest.between.norm();
-  const Vec3d normal = distance > 0 ? Vec3d(closest.between / distance) : Vec3d(Vec3d::Zero());
+  Vec3d normal = distance > 0 ? Vec3d(closest.between / distance) : Vec3d(Vec3d::Zero());
   if (pair.unit() * (distance - pair.radius()) <= tolerance_) {
     return hit(pair, {time, closest.on_a, closest.on_b}, normal);
+  }
+  if (lasting_planes_) {
+    // The motion is foreseen for a radian at most.
+    const double foreseen = std::min(1 - time, 1 / std::max(motion_.angle_a(), motion_.angle_b()));
+    normal = lasting_normal(pair, pair_motion_, closest, foreseen, 0.5 * tolerance_ / pair.unit());
   }
   return apart(pair, time, normal, -normal.dot(pair.support(normal).difference));
 }
@@ -74,6 +84,10 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   // Far from contact a rough plane serves as well. GJK on polytopes ends after a few steps whatever is asked.
   constexpr double share = 0.1;
   const double unit = pair.unit();
+  if (lasting_planes_ && are_boxes(pair)) {
+    ++iterations;
+    if (const auto found = look_at_pair_of_boxes(pair, time)) return *found;
+  }
   double open = 0;
   if (!pair.is_polytope()) {
     const Vec3d along = normal_.isZero(0) ? Vec3d(pair.centre_b().stableNormalized()) : normal_;
@@ -93,10 +107,10 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   const double upper = inside ? 0.0 : unit * (found.upper - pair.radius());
   if (!inside && upper > tolerance_) {
     Advancement result = apart(pair, time, found.direction, found.lower);
-    if (planes_turn_ && pair.is_polytope()) {
-      result.plane.turning =
-          turning_of_normal(found.simplex, found.direction, motion_.a().motion->rotation_vector,
-                            motion_.b().motion->rotation_vector);
+    if (lasting_planes_ && pair.is_polytope()) {
+      let_turn(result.plane, turning_of_normal(found.simplex, found.direction,
+                                               motion_.a().motion->rotation_vector,
+                                               motion_.b().motion->rotation_vector));
     }
     return result;
   }
@@ -109,6 +123,23 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   const DifferencePoint<double> mean = weighted_mean(simplex);
   return hit(pair, {time, mean.a, mean.b - pair.centre_b()},
              found.nearest.inside ? Vec3d(Vec3d::Zero()) : Vec3d(-nearest.direction));
+}
+
+std::optional<Advancement> AdvancementSearch::look_at_pair_of_boxes(SupportPair<double>& pair,
+                                                                    double time) {
+  const BoxLook found = look_at_boxes(pair, pair_motion_, tolerance_ / pair.unit());
+  if (found.state == BoxLook::State::open) {
+    Advancement result = apart(pair, time, found.normal, separation_along(pair, found.normal));
+    let_turn(result.plane, found.turning);
+    if (result.state == Advancement::State::apart) return result;
+  }
+  if (found.state == BoxLook::State::near) {
+    const double distance = (pair.centre_b() + found.on_b - found.on_a).norm();
+    if (pair.unit() * distance <= tolerance_) {
+      return hit(pair, {time, found.on_a, found.on_b}, found.normal);
+    }
+  }
+  return {};
 }
 
 Advancement AdvancementSearch::hit(const SupportPair<double>& pair, const NearestPoints& found,
@@ -126,6 +157,11 @@ Advancement AdvancementSearch::hit(const SupportPair<double>& pair, const Neares
   nearest_ = {time, motion_.centre_a(time) + pair.unit() * found.a,
               motion_.centre_b(time) + pair.unit() * found.b};
   return {Advancement::State::hit, {}};
+}
+
+void AdvancementSearch::let_turn(PartingPlane& plane, const Vec3d& turning) const {
+  constexpr double near = 0.25;
+  if (plane.gap < near * std::min(motion_.reach_a(), motion_.reach_b())) plane.turning = turning;
 }
 
 Advancement AdvancementSearch::apart(const SupportPair<double>& pair, double time,
@@ -152,7 +188,7 @@ void AdvancementSearch::finish(double time, CastOutcome& outcome) const {
     }
   }
   // The first try is at the tolerance's depth if the bodies close at the speed of their origins.
-  const double speed = motion_.displacement().norm() + motion_.angle_a() * motion_.reach_a() +
+  const double speed = motion_.speed() + motion_.angle_a() * motion_.reach_a() +
                        motion_.angle_b() * motion_.reach_b();
   if (!(speed > 0)) return;
   if (const auto by = contact_by(motion_, nearest_, 2 * tolerance_ / speed, outcome.iterations)) {

@@ -1,7 +1,8 @@
 // The loop of conservative advancement: time grows by steps in which the bodies provably stay apart.
 // Used by conservative-advancement, rigid-advancement and bilateral-advancement, which differ in the step.
 // Steps:   1. GJK, which starts at the last simplex, finds the plane that parts the bodies; for spheres and
-//             capsules a closed form does (round_cores).
+//             capsules a closed form does (round_cores). If planes are to last, it is another for boxes (box_planes)
+//             and for round bodies (round_planes).
 //          2. If they are within the tolerance, it is a hit. Otherwise the features say how the plane turns
 //             (turning_normal), for a step that lets it turn.
 //          3. The step says until when that plane proves them apart; if until the end, it is a miss.
@@ -14,6 +15,7 @@
 #include "algorithms/core/cast_outcome.h"
 #include "algorithms/kernels/gjk/warm_start.h"
 #include "algorithms/kernels/motion/advancement/contact_by.h"
+#include "algorithms/kernels/motion/advancement/pair_motion.h"
 #include "algorithms/kernels/motion/advancement/parting_step.h"
 #include "algorithms/kernels/motion/relative_motion.h"
 
@@ -23,7 +25,9 @@ struct AdvancementGoal {
   // Metres; without one, 1e-9 of the larger body's size. It is never less than what rounding hides.
   std::optional<double> tolerance;
   int most_steps = 0;
-  bool planes_turn = false;  // whether planes turn with the features that they part
+  // Whether planes are those that last, and turn with the features that they part, rather than those of the closest
+  // points.
+  bool lasting_planes = false;
 };
 
 // `Step`: FreeUntil operator()(SupportPair<double>& pair, const PartingPlane& plane), where the pair
@@ -52,17 +56,22 @@ class AdvancementSearch {
   void finish(double time, CastOutcome& outcome) const;
 
  private:
+  // Nothing if GJK must tell.
+  std::optional<Advancement> look_at_pair_of_boxes(SupportPair<double>& pair, double time);
   Advancement look_by_gjk(SupportPair<double>& pair, double time, int& iterations);
   // Notes a hit. Points are from their bodies' centres, in the pair's unit; the normal is zero if it is not
   // known.
   Advancement hit(const SupportPair<double>& pair, const NearestPoints& found, const Vec3d& normal);
+  // Lets the plane turn if the bodies are near. From afar the way of their origins past it costs more than corners do.
+  void let_turn(PartingPlane& plane, const Vec3d& turning) const;
   // `cores_apart` is the gap of the cores along the normal, in the pair's unit.
   Advancement apart(const SupportPair<double>& pair, double time, const Vec3d& normal,
                     double cores_apart);
 
   const RelativeMotion& motion_;
+  PairMotion pair_motion_;
   double tolerance_;  // metres
-  bool planes_turn_;
+  bool lasting_planes_;
   WarmStart kept_;                // the last look's simplex
   Vec3d normal_ = Vec3d::Zero();  // the last plane's
   Vec3d point_ = Vec3d::Zero();

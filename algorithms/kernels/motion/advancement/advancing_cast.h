@@ -14,13 +14,13 @@ namespace touchstone {
 
 // `Step` has the function FreeUntil step(const RelativeMotion& motion, SupportPair<double>& pair, const
 // PartingPlane& plane), where the pair is at the plane's time, `balls_first`: whether to begin where balls about
-// the bodies' origins meet, and `planes_turn`: whether the plane is given the turning of its features.
+// the bodies' origins meet, and `lasting_planes`: whether planes are those that last and turn.
 template <class Step>
 class AdvancingCast final : public Cast {
  public:
   explicit AdvancingCast(const CastSettings& settings)
       : goal_{settings.tolerance, std::max(1, settings.max_iterations.value_or(2000)),
-              Step::planes_turn} {}
+              Step::lasting_planes} {}
 
   void bind(std::span<const Shape> shapes) override { scene_.bind(shapes); }
 

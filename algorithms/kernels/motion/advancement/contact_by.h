@@ -1,8 +1,9 @@
 // The upper end of a bracket of the time of impact: a time by which two bodies are proven to share
 // a point. Used by the loop of
 // conservative advancement (advancement.h).
-// Steps:   1. Try a time a little after the found contact. If the ray from where the bodies were nearest to
-//             where they are then meets the ball inside of their difference (inner_ball.h), that is a proof.
+// Steps:   1. Try a time a little after the found contact, to which the bodies carry the points that were nearest.
+//             If these are nearer than the balls around the cores are wide, or their difference is in front of the
+//             ball inside of the cores' (inner_ball.h), or one of them is in the other body, a box, that is a proof.
 //          2. Run GJK there. A tetrahedron of the cores' difference around the origin, or a point of
 //             it nearer to the origin than the radii, is a proof if it holds beyond rounding.
 //          3. Otherwise try a time further on, until the end of the motion.

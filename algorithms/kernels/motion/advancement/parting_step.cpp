@@ -14,33 +14,41 @@ class Reach {
   Reach(PosedShape<double>& shape, const Vec3d& centre, const Vec3d& turn, double angle,
         const Vec3d& turning, double unit, double greatest, const Vec3d& n)
       : shape_(shape), centre_(centre), n_(n), turn_(n.cross(turn - turning)), unit_(unit) {
+    bend_turn_ = -turn.cross(turn_);
     if (turning.isZero(0)) {
       fastest_ = angle;
       bend_ = turn_.norm() * angle * greatest;
     } else {
-      const double square = (turn - turning).squaredNorm();
-      fastest_ = std::sqrt(square);
-      bend_ = (square + turning.cross(turn).norm()) * greatest;
+      const Vec3d relative = turn - turning;
+      bend_turn_ -= relative.cross(turning.cross(n));
+      fastest_ = angle + turning.norm();
+      bend_ = (relative.squaredNorm() + turning.cross(turn).norm()) * greatest;
     }
   }
 
   // Adds the body's centre and core: value is an upper bound on how far they reach along n after h,
-  // less the part that is linear in time and the same for all points.
-  double value(double h) {
-    const Vec3d m = n_ + h * turn_;
-    support_ = shape_.support(m);
-    return unit_ * m.dot(support_) + h * turn_.dot(centre_);
+  // less the part that is the same at all times, and less what is bounded by `bend`, or with `curved` by `third`.
+  double value(double h, bool curved) {
+    const Vec3d change = h * (curved ? Vec3d(turn_ + 0.5 * h * bend_turn_) : turn_);
+    return unit_ * shape_.support_value(n_ + change) + change.dot(centre_);
   }
-  // The rate at which the support point of the last call moves along n.
-  double speed() const { return turn_.dot(unit_ * support_ + centre_); }
+  // The same for h = 0. Sets the rate at which the support point moves along n, and the rate of that.
+  double value_now(double& rate, double& rate_change) {
+    const Vec3d support = unit_ * shape_.support(n_), arm = support + centre_;
+    rate = turn_.dot(arm);
+    rate_change = bend_turn_.dot(arm);
+    return n_.dot(support);
+  }
+  // Bounds on the second and the third derivative of any point's way along n.
   double bend() const { return bend_; }
-  // The angular velocity relative to n's.
+  double third() const { return fastest_ * bend_; }
+  // The sum of the angular velocities of the body and n.
   double fastest() const { return fastest_; }
 
  private:
   PosedShape<double>& shape_;
-  Vec3d centre_;  // from the body's origin, at the time
-  Vec3d n_, turn_, support_ = Vec3d::Zero();
+  Vec3d centre_;                // from the body's origin, at the time
+  Vec3d n_, turn_, bend_turn_;  // n, and the first and second derivative of n as seen from the body
   double unit_, bend_, fastest_;
 };
 
@@ -61,10 +69,10 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
   const double unit = pair.unit();
   const Vec3d& n = plane.normal;
   const double left = 1 - plane.time;
-  // A support direction is at most as long as 1 and the greatest turn, 1.5, so that rounding is at
-  // most three times that of a unit direction.
+  // A support direction is at most as long as 1, the greatest turn, 1.5, and half its square, so that rounding is
+  // at most four times that of a unit direction.
   constexpr double greatest_turn = 1.5;
-  const double slack = 3 * (RelativeMotion::pair_rounding * unit + motion.placement_rounding());
+  const double slack = 4 * (RelativeMotion::pair_rounding * unit + motion.placement_rounding());
   const double balls = balls_apart(motion, plane, slack);
   if (balls > left) return {1, true};
 
@@ -73,46 +81,63 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
              motion.angle_a(), turning, unit, motion.reach_a(), n);
   Reach of_b(pair.b(), motion.centre_b(plane.time), motion.b().motion->rotation_vector,
              motion.angle_b(), turning, unit, motion.reach_b(), -n);
-  double closing = n.dot(motion.displacement());
-  double bend = of_a.bend() + of_b.bend();
+  double closing = n.dot(motion.displacement()), closing_change = 0;
+  double bend = of_a.bend() + of_b.bend(), third = of_a.third() + of_b.third();
   double fastest = std::max(of_a.fastest(), of_b.fastest());
   if (!turning.isZero(0)) {
-    const Vec3d away = motion.offset(plane.time);
-    const double furthest = std::max(away.norm(), motion.offset(1).norm());
-    const double turn = turning.norm();
-    closing -= n.dot(turning.cross(away));
-    bend += turning.cross(n).norm() * (turn * furthest + 2 * motion.displacement().norm());
-    fastest = std::max(fastest, turn);
+    const Vec3d away = motion.offset(plane.time), turn_of_n = turning.cross(n);
+    const double furthest = std::sqrt(std::max(away.squaredNorm(), motion.offset(1).squaredNorm()));
+    const double turn = turning.norm(), speed_of_n = turn_of_n.norm();
+    closing += turn_of_n.dot(away);
+    closing_change = turning.cross(turn_of_n).dot(away) + 2 * turn_of_n.dot(motion.displacement());
+    bend += speed_of_n * (turn * furthest + 2 * motion.speed());
+    third += speed_of_n * turn * (turn * furthest + 3 * motion.speed());
   }
   const double apart = unit * (n.dot(pair.centre_b()) - pair.radius()) - slack;
-  const auto gap = [&](double h) {
-    return apart + h * closing - of_a.value(h) - of_b.value(h) - 0.5 * h * h * bend;
-  };
-  const double now = gap(0);
-  double end = std::min(left, greatest_turn / std::max(fastest, 1e-300));
-  // gap(h) is at most now + rate h - bend h^2 / 2, which is zero at the guess.
-  const double rate = closing - of_a.speed() - of_b.speed();
-  const double root = std::sqrt(rate * rate + 2 * bend * std::max(now, 0.0));
-  const double guess =
-      rate > 0 ? (bend > 0 ? (rate + root) / bend : end) : 2 * now / std::max(root - rate, 1e-300);
-  end = std::min(end, guess * (1 + 1e-9));
+  double speed_a = 0, speed_b = 0, change_a = 0, change_b = 0;
+  const double now = apart - of_a.value_now(speed_a, change_a) - of_b.value_now(speed_b, change_b);
   if (!(now > 0)) return {plane.time + balls, false};
-  double at_end = gap(end);
+  const double rate = closing - speed_a - speed_b;
+  const double furthest = std::min(left, greatest_turn / std::max(fastest, 1e-300));
+  const auto root_of = [&](double change) {
+    const double root = std::sqrt(std::max(0.0, rate * rate + 2 * change * now));
+    if (rate > 0) return change > 0 ? (rate + root) / change : furthest;
+    return 2 * now / std::max(root - rate, 1e-300);
+  };
+  // To second order, if anything turns. With the support points fixed the gap is now + rate h - change h^2 / 2, up to third order.
+  const double change = change_a + change_b - closing_change;
   double free = 0;
-  if (at_end > 0) {
-    free = end;
-  } else {
+  if (rate < 0 && bend > 0) {
+    const auto gap = [&](double h) {
+      return apart + h * closing - of_a.value(h, true) - of_b.value(h, true) +
+             0.5 * h * h * (closing_change - h * third / 3);
+    };
+    constexpr int most_tries = 3;
+    constexpr double inward = 1.1;
+    const double least = 0.25 * now / -rate;  // less is left to the surer bound
+    double h = std::min({furthest, std::sqrt(2 * now / std::max(bend, 1e-300)), root_of(change)});
+    for (int k = 0; k < most_tries && h > least; ++k) {
+      const double here = gap(h);
+      if (here > 0) {
+        free = h;
+        break;
+      }
+      h -= inward * here / std::min(rate - change * h, 0.1 * rate);
+    }
+  }
+  if (!(free > 0)) {
+    const auto gap = [&](double h) {
+      return apart + h * closing - of_a.value(h, false) - of_b.value(h, false) - 0.5 * h * h * bend;
+    };
+    // gap(h) is at most now + rate h - bend h^2 / 2, which is zero at the guess.
+    const double end = std::min(furthest, root_of(bend) * (1 + 1e-9));
+    const double at_end = gap(end);
     // Where the chord from an open end is zero, the gap is open by concavity; a little less makes up
     // for the rounding of the chord.
     constexpr double inward = 1 - 1e-12;
-    free = end * now / (now - at_end) * inward;
-    double open = now, begin = 0;
-    for (int k = 0; k < 1 && free > begin; ++k) {
-      const double here = gap(free);
-      if (!(here > 0.02 * open)) break;
-      open = here;
-      begin = free;
-      free = begin + (end - begin) * open / (open - at_end) * inward;
+    free = at_end > 0 ? end : end * now / (now - at_end) * inward;
+    if (const double here = at_end > 0 ? 0 : gap(free); here > 0.02 * now) {
+      free += (end - free) * here / (here - at_end) * inward;
     }
   }
   if (free >= left) return {1, true};

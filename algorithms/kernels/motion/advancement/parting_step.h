@@ -9,12 +9,19 @@
 //               gap(h) = n . o + h n . (u - w x o) - S_a(n + h n x (v_a - w)) - S_b(-n - h n x (v_b - w)) - k h^2 / 2.
 //             Supports are convex functions, so gap is concave: what is proven at the end of a step holds
 //             all along it.
-//          2. Guess h by taking the support points as fixed, which is never too short. If the gap is
-//             open there, go on there. Otherwise the chord from 0 gives an h at which it is open by
+//          2. Where the plane closes, the gap is taken to second order: as seen from a body, n turns to
+//               n + h n' + h^2 / 2 n'',  n' = (w - v) x n,  n'' = -v x n' - (v - w) x (w x n),
+//             up to h^3 / 6 (|v| + |w|) times the bound above, and so for the offset. That bound on the gap at h alone
+//             is not concave. But the true gap less k t^2 / 2 is, so at t = s h it is at least
+//               (1 - s) (gap(0) - s k h^2 / 2) + s gap(h),
+//             which is open for all s in [0, 1] if gap(h) is and k h^2 / 2 is at most gap(0). Guess h by taking the
+//             support points as fixed, and go back by Newton's method until it is so.
+//          3. Otherwise take the concave bound. The guess with fixed support points is never too short. If the gap is
+//             open there, go on there; if not the chord from 0 gives an h at which it is open by
 //             concavity; one more chord improves it.
-//          3. If balls about the bodies' origins stay apart along the fixed n for longer, take that time.
+//          4. If balls about the bodies' origins stay apart along the fixed n for longer, take that time.
 // Fails:   steps are short at many turns, where the bound k belongs to the whole body.
-// Cost:    two to four support calls.
+// Cost:    two to five support calls.
 #pragma once
 
 #include "algorithms/kernels/motion/relative_motion.h"

@@ -33,7 +33,12 @@ Vec3d turning_of_normal(const Simplex<double>& nearest, const Vec3d& normal, con
   if (of_a.count == 3 && of_b.count == 1) return turn_a;
   if (of_b.count == 3 && of_a.count == 1) return turn_b;
   if (of_a.count != 2 || of_b.count != 2) return Vec3d::Zero();
-  const Vec3d edge_a = of_a.at[1] - of_a.at[0], edge_b = of_b.at[1] - of_b.at[0];
+  return turning_across_edges(of_a.at[1] - of_a.at[0], of_b.at[1] - of_b.at[0], normal, turn_a,
+                              turn_b);
+}
+
+Vec3d turning_across_edges(const Vec3d& edge_a, const Vec3d& edge_b, const Vec3d& normal,
+                           const Vec3d& turn_a, const Vec3d& turn_b) {
   const Vec3d across = edge_a.cross(edge_b);
   constexpr double nearly_parallel = 0.05;
   const double square = across.squaredNorm();

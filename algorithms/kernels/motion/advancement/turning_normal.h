@@ -21,4 +21,8 @@ namespace touchstone {
 Vec3d turning_of_normal(const Simplex<double>& nearest, const Vec3d& normal, const Vec3d& turn_a,
                         const Vec3d& turn_b);
 
+// The same for a normal across an edge of each body (of any length).
+Vec3d turning_across_edges(const Vec3d& edge_a, const Vec3d& edge_b, const Vec3d& normal,
+                           const Vec3d& turn_a, const Vec3d& turn_b);
+
 }  // namespace touchstone
