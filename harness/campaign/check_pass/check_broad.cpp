@@ -17,7 +17,6 @@
 namespace touchstone::campaign {
 namespace {
 
-constexpr double broad_setup_seconds = 60;
 // An upper bound for a box or a pair: the frame's pairs are sorted and compared, its work is
 // counted.
 constexpr double seconds_to_verify = 5e-6;
@@ -148,10 +147,8 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
   }
   const double patience = group.time_limit + std::min(3 * group.time_limit, longest_grace) +
                           seconds_to_verify * static_cast<double>(greatest);
-  const process::IsolationLimits limits = {.item_seconds = patience,
-                                           .setup_seconds = broad_setup_seconds,
-                                           .failures = 1,
-                                           .memory = group.memory_limit};
+  const process::IsolationLimits limits = {
+      .item_seconds = patience, .failures = 1, .memory = group.memory_limit};
   const process::IsolationReport report =
       process::isolate(count, limits, [&]() -> process::ItemWork {
         const auto executor = std::make_shared<Executor>(1);

@@ -19,7 +19,6 @@
 namespace touchstone::campaign {
 namespace {
 
-constexpr double narrow_setup_seconds = 60;
 constexpr std::size_t outcomes_at_once = 250'000;  // a number that takes about 50 MB
 // seconds of a batch; a slower one counts no allocations
 constexpr double longest_batch_to_count = 10;
@@ -111,7 +110,6 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
   process::SharedArray<char> lost(
       sets_.size());  // 1 while the set is being solved; it stays if that kills the child
   const process::IsolationLimits limits = {.item_seconds = settings.time_limit,
-                                           .setup_seconds = narrow_setup_seconds,
                                            .memory = settings.memory_limit};
   const process::IsolationReport report =
       process::isolate(pieces.size(), limits, [&]() -> process::ItemWork {
