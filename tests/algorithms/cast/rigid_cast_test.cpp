@@ -171,6 +171,23 @@ TEST_P(RigidCast, SizesWhoseSquaresHaveNoDigits) {
   EXPECT_GT(counts.misses, counts.hits / 4);
 }
 
+// They end in hits whose normals have unit length.
+TEST_P(RigidCast, BoxesWhoseRotationsAreNotQuite) {
+  if (entry().info.origin == Origin::oracle) return;
+  for (const double off : {1e-12, 1e-9, 1e-7, 1e-3, -1e-9, -1e-3}) {
+    MovingPairCase c;
+    c.a = make_box(1, 1, 1);
+    c.b = make_box(0.5, 0.5, 0.5);
+    c.pose_a.rotation *= 1 + off;
+    c.pose_b.translation = {3, 0.1, 0.2};
+    c.motion_b = {{-3, 0, 0}, {0.2, 0, 0}};
+    const CastOutcome outcome = solve(entry(), c);
+    EXPECT_EQ(outcome.answer, CastAnswer::hit) << off;
+    EXPECT_NEAR(outcome.toi, (1.5 - off) / 3, 1e-8) << off;
+    EXPECT_NEAR(outcome.normal.norm(), 1, 1e-14) << off;
+  }
+}
+
 // The brackets of an algorithm and of the oracle have the truth in common.
 TEST_P(RigidCast, AgreesWithTheOracle) {
   constexpr std::array kinds = {ShapeKind::capsule, ShapeKind::box, ShapeKind::cylinder,

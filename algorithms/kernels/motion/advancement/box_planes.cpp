@@ -142,13 +142,13 @@ BoxLook look_at_boxes(SupportPair<double>& pair, const PairMotion& motion, doubl
   if (look.state == BoxLook::State::overlap) return look;
   const bool is_open = look.state == BoxLook::State::open;
   if (axis.is_face_of_a()) {
-    look.normal = axis.sense * a.per_column * a.matrix.col(axis.of_a);
+    look.normal = axis.sense * a.matrix.col(axis.of_a).normalized();
     look.turning = motion.turn_a;
     if (is_open) return look;
     look.on_b = pair.b().support(-look.normal);
     look.on_a = a.nearest(offset + look.on_b);
   } else if (axis.is_face_of_b()) {
-    look.normal = axis.sense * b.per_column * b.matrix.col(axis.of_b);
+    look.normal = axis.sense * b.matrix.col(axis.of_b).normalized();
     look.turning = motion.turn_b;
     if (is_open) return look;
     look.on_a = pair.a().support(look.normal);
