@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithms/core/length.h"
+#include "algorithms/kernels/motion/length.h"
 
 namespace touchstone {
 

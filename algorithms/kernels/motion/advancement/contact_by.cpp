@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "algorithms/core/length.h"
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/motion/advancement/round_cores.h"
+#include "algorithms/kernels/motion/length.h"
 
 namespace touchstone {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/core/length.h"
+#include "algorithms/kernels/motion/length.h"
 
 namespace touchstone {
 namespace {
