@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/kernels/motion/length.h"
+
 namespace touchstone {
 
 double inner_radius(const Shape& shape, const SupportShape<double>& support) {
@@ -48,12 +50,12 @@ std::vector<double> inner_radii(std::span<const Shape> shapes,
 }
 
 bool is_in_front_of_ball(const Vec3d& point, const Vec3d& centre, double radius, double rounding) {
-  if (centre.norm() + rounding < radius) return true;
-  const double length = point.norm();
+  if (length_of(centre) + rounding < radius) return true;
+  const double length = length_of(point);
   if (!(length > 4 * rounding)) return false;
   const Vec3d along = -point / length;
   const double ahead = along.dot(centre);
-  const double aside = (centre - ahead * along).norm();
+  const double aside = length_of(centre - ahead * along);
   return ahead > 0 && aside + 2 * rounding * (ahead + length) / length + rounding < radius;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/kernels/motion/length.h"
+
 namespace touchstone {
 namespace {
 
@@ -83,7 +85,7 @@ MotionBounds::MotionBounds(const MovingBody& a, const MovingBody& b)
       b_(b),
       offset_(b.pose->translation - a.pose->translation),
       displacement_(b.motion->displacement - a.motion->displacement),
-      speed_(displacement_.norm()),
+      speed_(length_of(displacement_)),
       angle_a_(a.motion->rotation_vector.norm()),
       angle_b_(b.motion->rotation_vector.norm()) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();

@@ -6,6 +6,7 @@
 #include "harness/families/turning_pairs.h"
 #include "tests/algorithms/cast/linear_cast.h"
 #include "tests/algorithms/one_in.h"
+#include "tests/algorithms/shapes.h"
 
 namespace touchstone {
 namespace {
@@ -145,6 +146,46 @@ TEST_P(RigidCast, CornersThatPassTangentially) {
   EXPECT_LE(counts.unknown, entry().info.name == "rigid-advancement" ? 0 : 9);
   EXPECT_GE(counts.hits, 3);
   EXPECT_GE(counts.misses, 3);
+}
+
+TEST_P(RigidCast, SizesWhoseSquaresHaveNoDigits) {
+  constexpr std::array kinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box,
+                                ShapeKind::hull};
+  if (entry().info.origin == Origin::oracle) return;
+  Random random(27);
+  int brackets = 0;
+  for (const double scale : {0x1p-600, 0x1p600}) {
+    for (int i = 0; i < drawn(200, 60); ++i) {
+      const ShapeKind a = kinds[static_cast<std::size_t>(random.below(4))];
+      const ShapeKind b = kinds[static_cast<std::size_t>(random.below(4))];
+      const MovingPairCase c = scaled(families::turning(a, b, 2, random), scale);
+      CastSettings settings;
+      settings.tolerance = 1e-6 * scale;
+      const CastOutcome outcome = solve(entry(), c, settings);
+      ++(outcome.answer == CastAnswer::hit ? counts.hits : counts.misses);
+      brackets += std::isnan(outcome.upper) ? 0 : 1;
+      watch(c, outcome, settings.tolerance.value(), 40);
+    }
+  }
+  EXPECT_GT(brackets, counts.hits / 2);
+  EXPECT_GT(counts.misses, counts.hits / 4);
+}
+
+// They end in hits whose normals have unit length.
+TEST_P(RigidCast, BoxesWhoseRotationsAreNotQuite) {
+  if (entry().info.origin == Origin::oracle) return;
+  for (const double off : {1e-12, 1e-9, 1e-7, 1e-3, -1e-9, -1e-3}) {
+    MovingPairCase c;
+    c.a = make_box(1, 1, 1);
+    c.b = make_box(0.5, 0.5, 0.5);
+    c.pose_a.rotation *= 1 + off;
+    c.pose_b.translation = {3, 0.1, 0.2};
+    c.motion_b = {{-3, 0, 0}, {0.2, 0, 0}};
+    const CastOutcome outcome = solve(entry(), c);
+    EXPECT_EQ(outcome.answer, CastAnswer::hit) << off;
+    EXPECT_NEAR(outcome.toi, (1.5 - off) / 3, 1e-8) << off;
+    EXPECT_NEAR(outcome.normal.norm(), 1, 2e-14) << off;
+  }
 }
 
 // The brackets of an algorithm and of the oracle have the truth in common.

@@ -131,7 +131,8 @@ std::optional<Advancement> AdvancementSearch::look_at_pair_of_boxes(SupportPair<
   if (found.state == BoxLook::State::open) {
     Advancement result = apart(pair, time, found.normal, separation_along(pair, found.normal));
     let_turn(result.plane, found.turning);
-    if (result.state == Advancement::State::apart) return result;
+    // It is less than the look's where a rotation is not quite one. A step needs more than rounding.
+    if (result.plane.gap > 0.5 * tolerance_) return result;
   }
   if (found.state == BoxLook::State::near) {
     const double distance = (pair.centre_b() + found.on_b - found.on_a).norm();

@@ -40,6 +40,13 @@ struct Box {
   Vec3d nearest(const Vec3d& point) const {
     return per_column * (matrix * seen(point).cwiseMax(-extents).cwiseMin(extents));
   }
+  // The unit vector along an axis.
+  Vec3d direction(int axis) const {
+    constexpr double rounding = 1e-14;
+    const Vec3d column = per_column * matrix.col(axis);
+    if (std::abs(column.squaredNorm() - 1) < rounding) return column;
+    return column.normalized();
+  }
   // Half an edge along an axis.
   Vec3d half_edge(int axis) const { return extents[axis] * per_column * matrix.col(axis); }
   // The middle of the edge along an axis that is furthest in the direction.
@@ -142,13 +149,13 @@ BoxLook look_at_boxes(SupportPair<double>& pair, const PairMotion& motion, doubl
   if (look.state == BoxLook::State::overlap) return look;
   const bool is_open = look.state == BoxLook::State::open;
   if (axis.is_face_of_a()) {
-    look.normal = axis.sense * a.per_column * a.matrix.col(axis.of_a);
+    look.normal = axis.sense * a.direction(axis.of_a);
     look.turning = motion.turn_a;
     if (is_open) return look;
     look.on_b = pair.b().support(-look.normal);
     look.on_a = a.nearest(offset + look.on_b);
   } else if (axis.is_face_of_b()) {
-    look.normal = axis.sense * b.per_column * b.matrix.col(axis.of_b);
+    look.normal = axis.sense * b.direction(axis.of_b);
     look.turning = motion.turn_b;
     if (is_open) return look;
     look.on_a = pair.a().support(look.normal);

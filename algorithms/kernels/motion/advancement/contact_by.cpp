@@ -5,6 +5,7 @@
 
 #include "algorithms/kernels/gjk/gjk_distance.h"
 #include "algorithms/kernels/motion/advancement/round_cores.h"
+#include "algorithms/kernels/motion/length.h"
 
 namespace touchstone {
 
@@ -39,9 +40,10 @@ struct CarriedPoints {
     const Vec3d speed_b = motion.b().motion->rotation_vector.cross(nearest.b);
     a = nearest.a + later * speed_a;
     b = nearest.b + later * speed_b;
-    const double bend = 0.5 * later * later *
-                        (motion.angle_a() * speed_a.norm() + motion.angle_b() * speed_b.norm());
-    const double lengths = a.norm() + b.norm() + offset.norm();
+    const double bend =
+        0.5 * later * later *
+        (motion.angle_a() * length_of(speed_a) + motion.angle_b() * length_of(speed_b));
+    const double lengths = length_of(a) + length_of(b) + length_of(offset);
     doubt = 2 * (RelativeMotion::pair_rounding * lengths + motion.placement_rounding() + bend);
   }
 
@@ -58,7 +60,7 @@ bool is_surely_in_box(const MovingBody& body, const PosedShape<double>& shape, d
   const Vec3d seen = rotation.transpose() * point;
   // Coordinates are off by as much as the matrix is off a rotation, which its start is too.
   const double skew = 1 - least_stretch(body.pose->rotation);
-  const double margin = doubt + 2 * skew * seen.norm();
+  const double margin = doubt + 2 * skew * length_of(seen);
   return skew < 0.5 &&
          ((shape.shape().unit * shape.shape().extents - seen.cwiseAbs()).array() > margin).all();
 }
@@ -66,7 +68,8 @@ bool is_surely_in_box(const MovingBody& body, const PosedShape<double>& shape, d
 // Returns true if the points prove contact with the balls around the cores, or with those inside of them.
 bool is_proven_by_balls(const RelativeMotion& motion, const CarriedPoints& at, double time) {
   const Vec3d apart = at.a - at.b - at.offset;
-  if (apart.norm() + at.doubt < motion.a().shape->radius + motion.b().shape->radius) return true;
+  if (length_of(apart) + at.doubt < motion.a().shape->radius + motion.b().shape->radius)
+    return true;
   const double inner = motion.a().inner_radius() + motion.b().inner_radius();
   return inner > 0 &&
          is_in_front_of_ball(apart, motion.centre_a(time) - motion.centre_b(time) - at.offset,

@@ -38,7 +38,7 @@ class HalfspaceGap {
   double speed(const Vec3d& normal) const {
     const double turn = normal.cross(bounds_.a().motion->rotation_vector).norm();
     return (turn * bounds_.reach_a() - normal.dot(bounds_.displacement()) +
-            64 * std::numeric_limits<double>::epsilon() * bounds_.displacement().norm()) /
+            64 * std::numeric_limits<double>::epsilon() * bounds_.speed()) /
            inward;
   }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/kernels/motion/length.h"
+
 namespace touchstone {
 namespace {
 
@@ -86,7 +88,7 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
   double fastest = std::max(of_a.fastest(), of_b.fastest());
   if (!turning.isZero(0)) {
     const Vec3d away = motion.offset(plane.time), turn_of_n = turning.cross(n);
-    const double furthest = std::sqrt(std::max(away.squaredNorm(), motion.offset(1).squaredNorm()));
+    const double furthest = std::max(length_of(away), length_of(motion.offset(1)));
     const double turn = turning.norm(), speed_of_n = turn_of_n.norm();
     closing += turn_of_n.dot(away);
     closing_change = turning.cross(turn_of_n).dot(away) + 2 * turn_of_n.dot(motion.displacement());
