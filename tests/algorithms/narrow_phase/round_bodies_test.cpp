@@ -145,11 +145,11 @@ void hold_no_silent_error(const NarrowPhaseEntry& entry, const std::vector<Kinds
 }
 
 TEST(RoundBodies, InLanesHoldNoSilentError) {
-  hold_no_silent_error(*find_narrow_phase("gjk-lanes"), curved_pairs(true), 31, drawn(20, 10));
+  hold_no_silent_error(*find_narrow_phase("gjk-lanes"), curved_pairs(true), 31, drawn(20, 20));
 }
 
 TEST(RoundBodies, BySmoothNormalsHoldNoSilentError) {
-  hold_no_silent_error(*find_narrow_phase("smooth"), curved_pairs(false), 32, drawn(24, 10));
+  hold_no_silent_error(*find_narrow_phase("smooth"), curved_pairs(false), 32, drawn(24, 20));
 }
 
 TEST(RoundBodies, AreAnsweredInLanesAlikeInEveryBatchAndAtEveryLevel) {
