@@ -135,8 +135,8 @@ TEST_P(Polytopes, AgreeWithBruteForceInDouble) {
       expect_right(back, task, pair.truth, 1e-14 * pair.size);
     }
   }
-  EXPECT_GT(apart, one_in == 1 ? 16 : 2);
-  EXPECT_GT(common, one_in == 1 ? 16 : 2);
+  EXPECT_GT(apart, one_in == 1 ? 20 : 3);
+  EXPECT_GT(common, one_in == 1 ? 20 : 3);
 }
 
 TEST_P(Polytopes, AreHonestInFloat) {

@@ -230,7 +230,7 @@ TEST(Margin, BeyondItNothingIsGivenButThat) {
     }
     if (!offers(entry, Task::distance) && !offers(entry, Task::signed_distance)) return;
     EXPECT_GT(beyond, 60 / one_in);
-    EXPECT_GT(within, 40 / one_in);
+    EXPECT_GT(within, 60 / one_in);
   });
 }
 
