@@ -9,7 +9,8 @@
 //             then the last tetrahedron, plane or simplex
 //             (kernels/gjk/warm_start).
 //          4. Iterate fast with plain products (kernels/gjk/gjk_iteration); between polytopes its
-//             verdict is enough.
+//             verdict is enough. Its first plane is tried before the pair is prepared for more, if
+//             one is a hull and the centres are far enough apart (kernels/gjk/first_plane).
 //          5. Continue in the distance loop, where each simplex bounds the distance from above and
 //             each support plane from below, until the bounds decide (kernels/gjk/gjk_distance).
 //          6. If the origin is in the cores' difference, EPA finds the depth or proves the verdict
@@ -76,25 +77,28 @@ class Gjk final : public NarrowPhase {
     }
     for_each_bounded_pair(task, batch, shapes_, ahead_, asks_distance(task), outcomes,
                           [&](std::size_t i, const auto&... bodies) {
-                            solve_pair(task, batch, i, bodies..., outcomes[i]);
+                            solve_pair(task, batch, i, bodies..., outcomes[i], false);
                           });
   }
 
   void solve_alone(Task task, const PairBatch& batch, std::size_t i, Outcome& outcome) override {
+    const bool warm = warm_ && WarmPlanes::may_answer(task, batch, margin_);
+    if (warm && WarmPlanes::answer_alone(task, batch, i, outcome, margin_)) return;
     for_bounded_pair(task, batch, i, shapes_, outcome, [&](std::size_t, const auto&... bodies) {
-      solve_pair(task, batch, i, bodies..., outcome);
+      solve_pair(task, batch, i, bodies..., outcome, warm);
     });
   }
 
  private:
+  // `plane_fails`: see GjkQuery.
   void solve_pair(Task task, const PairBatch& batch, std::size_t i, const SupportShape<Scalar>& a,
                   const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b,
-                  Outcome& outcome) {
+                  Outcome& outcome, bool plane_fails) {
     if (!warm_ || batch.memory.empty()) {
       query_.solve(a, pose_a, b, pose_b, task, nullptr, outcome);
       return;
     }
-    solve_warm(task, batch, i, a, pose_a, b, pose_b, outcome, false);
+    solve_warm(task, batch, i, a, pose_a, b, pose_b, outcome, plane_fails);
   }
 
   void solve_warm(Task task, const PairBatch& batch, std::size_t i, const SupportShape<Scalar>& a,

@@ -13,10 +13,15 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<double>::Vector square_off(
   return dot<double>(off, off);
 }
 
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Simd<double>::Vector sum_of_squares(
-    const Vector3<double> columns[3]) {
-  return dot<double>(columns[0], columns[0]) + dot<double>(columns[1], columns[1]) +
-         dot<double>(columns[2], columns[2]);
+// The bits that are set in an entry of a matrix, given by its columns.
+using Bits __attribute__((vector_size(8 * Simd<double>::width))) = std::int64_t;
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Bits entry_bits(const Vector3<double> columns[3]) {
+  Bits bits{};
+  for (int k = 0; k < 3; ++k) {
+    bits |= std::bit_cast<Bits>(columns[k].x) | std::bit_cast<Bits>(columns[k].y) |
+            std::bit_cast<Bits>(columns[k].z);
+  }
+  return bits;
 }
 
 // Transposes the four numbers from `first` on at each lane's address into four vectors.
@@ -36,8 +41,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_directions(const Vector3<double>&
   using Lanes = Simd<double>;
   using Vector = typename Lanes::Vector;
   const Vector zero = Lanes::broadcast(0), square = dot<double>(normal, normal);
-  const auto usable = both(Lanes::less(Lanes::broadcast(0.5), square),
-                           Lanes::less(square, Lanes::broadcast(5)));
+  const auto usable =
+      both(Lanes::less(Lanes::broadcast(0.5), square), Lanes::less(square, Lanes::broadcast(5)));
   const Vector3<double> direction = select<double>(usable, normal, {zero, zero, zero});
   Vector columns[4] = {direction.x, direction.y, direction.z, zero};
   alignas(64) Quad<double> quads[Lanes::width];
@@ -49,7 +54,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void write_directions(const Vector3<double>&
 }
 
 // Returns the lanes whose planes part the pairs from `begin` to `end` if the planes are to be
-// believed, as bits. The formulas are explained at CarriedPlane::parts.
+// believed, as bits. The formulas are explained at carried_plane.inl.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned parted_lanes(const PlaneTable& table,
                                                           const PairTable<double>& bodies,
                                                           std::size_t begin, std::size_t end,
@@ -96,14 +101,14 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned parted_lanes(const PlaneTable& tabl
   const Vector length = Lanes::abs(offset.x) + Lanes::abs(offset.y) + Lanes::abs(offset.z);
   const Vector excess = dot<double>(normal, normal) - one;
   const Vector gap = dot<double>(normal, offset) - reach - radii * Lanes::abs(excess) -
-                     rounding * (2 * length + 8 * radii) -
-                     table.margin * (one + Lanes::abs(excess));
+                     2 * rounding * length - table.margin * (one + Lanes::abs(excess));
   const Vector bend = radius_a * radius_a * off_a + radius_b * radius_b * off_b;
   const auto far =
       both(Lanes::less(zero, gap), Lanes::less((2 * (1 + rounding)) * bend, gap * gap));
+  // These bits together make a number below two if each entry is.
+  const Vector entries = std::bit_cast<Vector>(entry_bits(of_a) | entry_bits(of_b));
   const auto sound =
-      both(Lanes::less(excess, one), Lanes::less(sum_of_squares(of_a) + sum_of_squares(of_b),
-                                                 Lanes::broadcast(CarriedPlane::greatest_squares)));
+      both(Lanes::less(excess, one), Lanes::less(Lanes::abs(entries), Lanes::broadcast(2)));
   const unsigned parted = Lanes::to_bits(both(far, sound));
   if (directions != nullptr && (~parted & ((1u << (end - begin)) - 1)) != 0) {
     const Vector3<double> both_carry = moved<double>(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "algorithms/kernels/gjk/first_plane.h"
 #include "algorithms/kernels/gjk/simplex_face.h"
 #include "algorithms/kernels/minkowski/resolution.h"
 
@@ -89,10 +90,12 @@ void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
   const std::optional<CentreOffset> offset =
       offset_unless_apart(a, pose_a, b, pose_b, task, plane, outcome);
   if (!offset) return;
-  SupportPair<Scalar> pair(*offset, a, pose_a, b, pose_b);
   outcome.iterations = 0;
+  if (start == nullptr && task == Task::intersect && takes_fast_gjk(a, b)) {
+    return decide(*offset, a, pose_a, b, pose_b, outcome);
+  }
+  SupportPair<Scalar> pair(*offset, a, pose_a, b, pose_b);
   if (start == nullptr) {
-    if (task == Task::intersect && fast_gjk_decides(pair, outcome)) return;
     solve_pair(pair, task, nullptr, outcome);
     return;
   }
@@ -106,22 +109,51 @@ void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
                                     pose_a, radius_of(b), pose_b);
 }
 
-// Finds the verdict for cores with corners and no radius, mostly by the fast iteration. If that
-// leaves it open, the distance loop starts again with the rest of the cap.
+// Whether `decide` finds the verdict: for cores with corners and no radius.
 template <class Scalar>
-bool GjkQuery<Scalar>::fast_gjk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const {
-  if (!pair.is_polytope() || pair.radius() > 0) return false;
-  if (settings_.momentum == Momentum::nesterov || settings_.duality_gap) return false;
-  const FastGjkGoal goal{.only_apart = true, .most_iterations = settings_.gjk_cap};
-  const FastGjkStart<Scalar> from_the_centres(-pair.centre_b());
-  const FastGjkResult<Scalar> found =
-      functions_.fast_gjk(pair, goal, tolerance(true), from_the_centres);
-  outcome.iterations = found.iterations;
-  if (found.end != FastGjkEnd::apart && found.end != FastGjkEnd::inside) return false;
+bool GjkQuery<Scalar>::takes_fast_gjk(const SupportShape<Scalar>& a,
+                                      const SupportShape<Scalar>& b) const {
+  return a.is_polytope() && b.is_polytope() && a.radius + b.radius == 0 &&
+         settings_.momentum != Momentum::nesterov && !settings_.duality_gap;
+}
+
+// Finds the verdict, mostly by the first plane or the fast iteration. If they leave it open, the
+// distance loop starts again with the rest of the cap.
+template <class Scalar>
+void GjkQuery<Scalar>::decide(const CentreOffset& offset, const SupportShape<Scalar>& a,
+                              const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b,
+                              Outcome& outcome) {
+  const bool tried = may_be_parted(offset, a, b);
+  FirstPlane plane;
+  if (tried) {
+    plane = first_plane(offset, a, pose_a, b, pose_b);
+    if (plane.parts) {
+      outcome.answer = Answer::separated;
+      outcome.status = Status::ok;
+      outcome.iterations = outcome.support_calls = 1;
+      return;
+    }
+  }
+  SupportPair<Scalar> pair(offset, a, pose_a, b, pose_b);
+  FastGjkStart<Scalar> begin(-pair.centre_b());
+  if (tried) {
+    // The iteration goes on where its first step, which was the plane's, ended.
+    outcome.iterations = 1;
+    pair.count_support();
+    place_corner(pair, plane.corners, begin.simplex);
+    begin.direction = begin.simplex.points[0].difference;
+  }
+  const FastGjkGoal goal{.only_apart = true,
+                         .most_iterations = settings_.gjk_cap - outcome.iterations};
+  const FastGjkResult<Scalar> found = functions_.fast_gjk(pair, goal, tolerance(true), begin);
+  outcome.iterations += found.iterations;
+  if (found.end != FastGjkEnd::apart && found.end != FastGjkEnd::inside) {
+    solve_pair(pair, Task::intersect, nullptr, outcome);
+    return;
+  }
   outcome.answer = found.end == FastGjkEnd::apart ? Answer::separated : Answer::overlapping;
   outcome.status = Status::ok;
   outcome.support_calls = pair.support_calls();
-  return true;
 }
 
 template <class Scalar>

@@ -54,7 +54,9 @@ class GjkQuery {
                                                   const SupportShape<Scalar>& b, const Pose& pose_b,
                                                   Task task, const CarriedPlane* plane,
                                                   Outcome& outcome) const;
-  bool fast_gjk_decides(SupportPair<Scalar>& pair, Outcome& outcome) const;
+  bool takes_fast_gjk(const SupportShape<Scalar>& a, const SupportShape<Scalar>& b) const;
+  void decide(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
+              const SupportShape<Scalar>& b, const Pose& pose_b, Outcome& outcome);
   GjkDistanceResult<Scalar> solve_pair(SupportPair<Scalar>& pair, Task task,
                                        const LastFrame<Scalar>* last, Outcome& outcome);
   void solve_contact(SupportPair<Scalar>& pair, const GjkDistanceResult<Scalar>& found, Task task,

@@ -27,12 +27,8 @@ void WarmStart::place(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex) const
     if (!pair.a().has_corner(corners[i].a) || !pair.b().has_corner(corners[i].b)) return;
   }
   for (std::size_t i = 0; i < size; ++i) {
-    const Vec3<Scalar> on_a = pair.a().corner(corners[i].a);
-    const Vec3<Scalar> on_b = pair.b().corner(corners[i].b) + pair.centre_b();
-    simplex.points[i] = {on_a - on_b, on_a, on_b};
-    simplex.corners[i] = {corners[i].a, corners[i].b};
+    place_corner(pair, {corners[i].a, corners[i].b}, simplex);
   }
-  simplex.size = static_cast<int>(size);
 }
 
 template void WarmStart::keep(const Simplex<float>&);

@@ -37,6 +37,16 @@ struct WarmStart {
   void place(SupportPair<Scalar>& pair, Simplex<Scalar>& simplex) const;
 };
 
+// Appends the point of two corners of the cores.
+template <class Scalar>
+void place_corner(SupportPair<Scalar>& pair, const CornerPair& corners, Simplex<Scalar>& simplex) {
+  const Vec3<Scalar> on_a = pair.a().corner(corners.a);
+  const Vec3<Scalar> on_b = pair.b().corner(corners.b) + pair.centre_b();
+  const auto place = static_cast<std::size_t>(simplex.size++);
+  simplex.points[place] = {on_a - on_b, on_a, on_b};
+  simplex.corners[place] = corners;
+}
+
 // Greatest distance of a point of the body from its origin, in metres.
 template <class Scalar>
 double radius_of(const SupportShape<Scalar>& shape) {

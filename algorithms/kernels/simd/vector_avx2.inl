@@ -192,5 +192,10 @@ struct Simd<double> {
   }
 };
 #include "algorithms/kernels/simd/quads.inl"
+// GCC 12 makes two instructions and an insertion of it.
+template <>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> widen<float>(const Quad<float>& q) {
+  return _mm256_cvtps_pd(q);
+}
 #undef TOUCHSTONE_TARGET
 }  // namespace avx2

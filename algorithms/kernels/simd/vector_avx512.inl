@@ -165,5 +165,9 @@ struct Simd<double> {
   }
 };
 #include "algorithms/kernels/simd/quads.inl"
+template <>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> widen<float>(const Quad<float>& q) {
+  return _mm256_cvtps_pd(q);
+}
 #undef TOUCHSTONE_TARGET
 }  // namespace avx512
