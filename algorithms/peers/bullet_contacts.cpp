@@ -35,22 +35,22 @@ using Wrapper = btCollisionObjectWrapper;
 constexpr btScalar breaking_threshold = btScalar(0.02);  // gContactBreakingThreshold's default
 
 // Bullet's algorithm for a pair of objects and a manifold, constructed once for all pairs.
-struct BoxBox {
+struct BoxContacts {
   btBoxBoxCollisionAlgorithm algorithm;
 
   static bool takes(const Body&) { return true; }
   static void prepare(Body&) {}
-  BoxBox(btPersistentManifold& manifold, const Wrapper& a, const Wrapper& b)
+  BoxContacts(btPersistentManifold& manifold, const Wrapper& a, const Wrapper& b)
       : algorithm(&manifold, btCollisionAlgorithmConstructionInfo(), &a, &b) {}
 };
 
-struct HullHull {
+struct HullContacts {
   btGjkEpaPenetrationDepthSolver depth_solver;
   btConvexConvexAlgorithm algorithm;
 
   static bool takes(const Body& body) { return body.polyhedron != nullptr; }
   static void prepare(Body& body) { make_polyhedron(body); }
-  HullHull(btPersistentManifold& manifold, const Wrapper& a, const Wrapper& b)
+  HullContacts(btPersistentManifold& manifold, const Wrapper& a, const Wrapper& b)
       : algorithm(&manifold, btCollisionAlgorithmConstructionInfo(), &a, &b, &depth_solver, 0, 0) {}
 };
 
@@ -140,12 +140,12 @@ std::unique_ptr<ContactManifold> make_manifold(const char* name, const ManifoldS
   return std::make_unique<BulletManifold<Algorithm>>();
 }
 
-std::unique_ptr<ContactManifold> make_box_box(const ManifoldSettings& settings) {
-  return make_manifold<BoxBox>("bullet-box-contacts", settings);
+std::unique_ptr<ContactManifold> make_box_contacts(const ManifoldSettings& settings) {
+  return make_manifold<BoxContacts>("bullet-box-contacts", settings);
 }
 
-std::unique_ptr<ContactManifold> make_hull_hull(const ManifoldSettings& settings) {
-  return make_manifold<HullHull>("bullet-hull-contacts", settings);
+std::unique_ptr<ContactManifold> make_hull_contacts(const ManifoldSettings& settings) {
+  return make_manifold<HullContacts>("bullet-hull-contacts", settings);
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ std::vector<ManifoldEntry> peers_bullet_contacts() {
        .scalars = bullet::scalars(),
        .supports = [](ShapeKind a,
                       ShapeKind b) { return a == ShapeKind::box && b == ShapeKind::box; },
-       .make = bullet::make_box_box},
+       .make = bullet::make_box_contacts},
       {.info = {.name = "bullet-hull-contacts",
                 .citation = "Bullet 3.24, btConvexConvexAlgorithm, btPolyhedralContactClipping, "
                             "btPersistentManifold",
@@ -182,7 +182,7 @@ std::vector<ManifoldEntry> peers_bullet_contacts() {
              };
              return flat_sided(a) && flat_sided(b);
            },
-       .make = bullet::make_hull_hull}};
+       .make = bullet::make_hull_contacts}};
 }
 
 }  // namespace touchstone::entries

@@ -18,6 +18,8 @@
 namespace touchstone {
 namespace {
 
+using ode::scalar;
+
 class OdeContacts final : public ContactManifold {
  public:
   void bind(std::span<const Shape> shapes) override {
@@ -70,11 +72,7 @@ class OdeContacts final : public ContactManifold {
   std::vector<std::array<dReal, 4>> sides_;
 };
 
-// The scalar for which ODE is built.
-constexpr Precision scalar =
-    std::is_same_v<dReal, double> ? Precision::float64 : Precision::float32;
-
-std::unique_ptr<ContactManifold> make(const ManifoldSettings&) {
+std::unique_ptr<ContactManifold> make_box_contacts(const ManifoldSettings&) {
   return std::make_unique<OdeContacts>();
 }
 
@@ -94,7 +92,7 @@ std::vector<ManifoldEntry> peers_ode_contacts() {
            .scalars = {scalar},
            .supports = [](ShapeKind a,
                           ShapeKind b) { return a == ShapeKind::box && b == ShapeKind::box; },
-           .make = make}};
+           .make = make_box_contacts}};
 }
 
 }  // namespace touchstone::entries

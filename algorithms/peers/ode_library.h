@@ -9,10 +9,15 @@
 #include <mutex>
 #include <type_traits>
 
+#include "algorithms/core/outcome.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 
 namespace touchstone::ode {
+
+// The scalar for which ODE is built.
+inline constexpr Precision scalar =
+    std::is_same_v<dReal, double> ? Precision::float64 : Precision::float32;
 
 struct Library {
   std::mutex mutex;

@@ -23,6 +23,8 @@
 namespace touchstone {
 namespace {
 
+using ode::scalar;
+
 Vec3d to_vector(const dVector3 v) { return {v[0], v[1], v[2]}; }
 
 void report(bool contact, const Vec3d& normal, dReal depth, Task task, Outcome& outcome) {
@@ -84,10 +86,6 @@ class OdeNarrowPhase final : public NarrowPhase {
   std::array<std::vector<ode::Geom>, 2> geoms_;  // indexed by side of a pair, then by shape
 };
 
-// The scalar for which ODE is built.
-constexpr Precision scalar =
-    std::is_same_v<dReal, double> ? Precision::float64 : Precision::float32;
-
 Encoding encoding(ShapeKind, ShapeKind, Task, Precision) {
   return scalar == Precision::float64 ? Encoding::as_given : Encoding::float32;
 }
@@ -96,7 +94,7 @@ bool supports(ShapeKind a, ShapeKind b, Task) {
   return a <= ShapeKind::box && (b <= ShapeKind::box || b == ShapeKind::halfspace);
 }
 
-std::unique_ptr<NarrowPhase> make(const NarrowPhaseSettings&) {
+std::unique_ptr<NarrowPhase> make_ode(const NarrowPhaseSettings&) {
   return std::make_unique<OdeNarrowPhase>();
 }
 
@@ -121,7 +119,7 @@ std::vector<NarrowPhaseEntry> peers_ode_narrow_phase() {
            .supports = supports,
            .traits = {.depth_is_bound = true},
            .encoding = encoding,
-           .make = make}};
+           .make = make_ode}};
 }
 
 }  // namespace touchstone::entries
