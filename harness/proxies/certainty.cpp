@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "algorithms/core/double_double.h"
 #include "algorithms/hull/convex_hull.h"
@@ -12,9 +11,6 @@
 
 namespace touchstone::proxies {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The triangle's normal, correct to its last digit however thin the triangle is.
 Vec3d true_normal(const geometry::Triangle& t) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "algorithms/hull/convex_hull.h"
@@ -14,8 +13,6 @@
 
 namespace touchstone::proxies {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 Inside inside_of(const LocalBody& body) {
   Inside inside(body);

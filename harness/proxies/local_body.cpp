@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "algorithms/core/bounds.h"
 
 namespace touchstone::proxies {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 Vec3d scaled(const Vec3d& v, int exponent) {
   return {std::ldexp(v.x(), exponent), std::ldexp(v.y(), exponent), std::ldexp(v.z(), exponent)};

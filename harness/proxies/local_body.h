@@ -2,12 +2,16 @@
 // conversions.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "harness/geometry/polyhedron.h"
 #include "harness/proxies/representation.h"
 
 namespace touchstone::proxies {
+
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The body is scaled by a power of two. A hull is also moved by exact differences: by one of its
 // points along each axis on which it is farther from the origin than it is long. So no digit of a

@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "algorithms/hull/convex_hull.h"
 #include "algorithms/oracle/oracle.h"
 #include "harness/base/error.h"
 #include "harness/geometry/greatest_copy.h"
+#include "harness/proxies/local_body.h"
 #include "harness/proxies/placed_solid.h"
 
 namespace touchstone::proxies {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 Shape hull_of(const geometry::Triangle& t) {
   Shape shape;
@@ -87,7 +85,7 @@ bool MeshInside::winds_about(const Vec3d& x) const {
 // A plane perpendicular to the direction of the nearest point keeps the whole triangle at the
 // distance of its nearest corner.
 double MeshInside::clearance(const Vec3d& x) const {
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (const geometry::Triangle& t : surface_.triangles()) {
     const Vec3d to = geometry::nearest_point(t, x) - x;
     const double length = to.norm();

@@ -1,7 +1,6 @@
 // The oriented box of least volume that the search finds.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "algorithms/hull/convex_hull.h"
@@ -10,7 +9,6 @@
 namespace touchstone::proxies {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_faces = 64;
 
 // The frame has the columns u, n x u, n, orthonormal up to rounding.
@@ -22,12 +20,12 @@ Mat3d frame_of(const Vec3d& normal, const Vec3d& along) {
   return frame;
 }
 
-struct Extent {
+struct BoxAlong {
   Vec3d low, high;
   Vec3d size() const { return high - low; }
 };
-Extent extent_along(const Mat3d& frame, const std::vector<Vec3d>& points) {
-  Extent e{frame.transpose() * points.front(), frame.transpose() * points.front()};
+BoxAlong box_along(const Mat3d& frame, const std::vector<Vec3d>& points) {
+  BoxAlong e{frame.transpose() * points.front(), frame.transpose() * points.front()};
   for (const Vec3d& p : points) {
     const Vec3d at = frame.transpose() * p;
     e.low = e.low.cwiseMin(at);
@@ -48,7 +46,7 @@ class Search {
 
   void consider(const Mat3d& frame) {
     if (!frame.allFinite()) return;
-    const double value = cost(extent_along(frame, points_).size());
+    const double value = cost(box_along(frame, points_).size());
     if (!(value < least_)) return;
     least_ = value;
     best_ = frame;
@@ -98,7 +96,7 @@ class Search {
  private:
   const std::vector<Vec3d>& points_;
   Mat3d best_ = Mat3d::Identity();
-  double least_ = std::numeric_limits<double>::infinity();
+  double least_ = infinity;
 };
 
 Mat3d best_frame(const Hull& hull) {
@@ -128,7 +126,7 @@ Mat3d best_frame(const Hull& hull) {
 Part outer_oriented_box(const LocalBody& body) {
   if (body.shape.kind != ShapeKind::hull) return outer_box(body);
   const Mat3d frame = best_frame(*body.shape.hull);
-  const Extent e = extent_along(frame, body.points);
+  const BoxAlong e = box_along(frame, body.points);
   Part part;
   part.shape.kind = ShapeKind::box;
   part.pose.rotation = frame;

@@ -1,7 +1,6 @@
 // The capsule of least volume that the search finds around a body.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "harness/geometry/enclosing_ball.h"
@@ -10,13 +9,11 @@
 namespace touchstone::proxies {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 // An axis along `direction` (unit) through `beside`, from low to high.
 struct Fit {
   Vec3d direction = Vec3d::UnitZ(), beside = Vec3d::Zero();
   double low = 0, high = 0, radius = 0;
-  double volume = std::numeric_limits<double>::infinity();
+  double volume = infinity;
 };
 
 double volume_of(double length, double radius) {
@@ -35,7 +32,7 @@ Fit fit_on_line(const std::vector<std::pair<double, double>>& along_and_beside, 
   const auto with_radius = [&](double radius) {
     Fit tried = fit;
     tried.radius = radius;
-    tried.low = std::numeric_limits<double>::infinity();
+    tried.low = infinity;
     tried.high = -tried.low;
     for (const auto& [along, beside] : along_and_beside) {
       const double ball = std::sqrt(std::max(0.0, radius * radius - beside * beside));

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "algorithms/hull/convex_hull.h"
@@ -16,7 +15,6 @@
 namespace touchstone::proxies {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double thinnest = 0x1p-26;     // half the thickness that a flat body's proxy gets
 constexpr double same_corner = 0x1p-30;  // corners nearer than this are merged
 

@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/error.h"
 #include "harness/geometry/tessellation.h"
+#include "harness/proxies/local_body.h"
 
 namespace touchstone::proxies {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Interval = std::optional<std::pair<double, double>>;
 
 Interval both(const Interval& a, const Interval& b) {

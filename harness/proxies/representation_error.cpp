@@ -1,7 +1,6 @@
 // The error of a proxy: volumes and Hausdorff distance.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "harness/proxies/local_body.h"
 #include "harness/proxies/outer_fits.h"
@@ -11,7 +10,6 @@
 namespace touchstone::proxies {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t surface_points = 2048;
 constexpr double way_step = 1e-7;  // relative to about unit size: a step beyond a surface
 

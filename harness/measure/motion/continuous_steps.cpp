@@ -12,7 +12,6 @@
 namespace touchstone::measure {
 namespace {
 
-constexpr std::size_t bodies_a_block = 256;
 // Pairs differ in what they cost, so that each worker gets several blocks, but none of a few pairs alone.
 constexpr std::size_t blocks_a_worker = 16, fewest_pairs = 16, most_pairs = 64;
 

@@ -16,7 +16,6 @@
 namespace touchstone::measure {
 namespace {
 
-constexpr std::size_t bodies_a_block = 256;
 constexpr std::size_t pairs_a_block = 256;
 
 void sort_once(std::vector<IndexPair>& pairs) {

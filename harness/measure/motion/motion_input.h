@@ -14,6 +14,9 @@
 
 namespace touchstone::measure {
 
+// What a worker does at a time where it turns bodies or makes their boxes.
+inline constexpr std::size_t bodies_a_block = 256;
+
 struct MotionInput {
   std::vector<Shape> shapes;
   std::vector<std::uint32_t> shape_of;  // for each body

@@ -2,7 +2,6 @@
 #include "harness/proxies/parts/decomposition.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 
@@ -17,7 +16,6 @@
 namespace touchstone::proxies {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_parts = 64;
 constexpr double enough = 0.01;        // share of the body's volume
 constexpr double worth_a_part = 1e-4;  // share of the body's volume
