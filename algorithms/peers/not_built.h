@@ -21,7 +21,7 @@ inline constexpr std::nullptr_t encoding = nullptr, make = nullptr, make_aabb = 
                                 make_kdop = nullptr, make_libccd = nullptr, make_low = nullptr,
                                 make_meshes = nullptr, make_mpr = nullptr, make_naive = nullptr,
                                 make_naive_cast = nullptr, make_obbrss = nullptr,
-                                make_packets = nullptr, make_plain = nullptr,
+                                make_ode = nullptr, make_packets = nullptr, make_plain = nullptr,
                                 make_quadtree = nullptr, make_refit = nullptr,
                                 make_robust = nullptr, make_sap = nullptr, make_sat = nullptr,
                                 make_spatial_hash = nullptr, make_ssap = nullptr,
