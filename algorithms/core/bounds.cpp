@@ -93,12 +93,23 @@ Interval extent(const Shape& shape, const Vec3d& row, double& magnitude) {
   return {-inf, inf};
 }
 
+// Whether a component of R n is zero in exact numbers: no product of it is rounded away.
+bool is_exactly_zero(const Mat3d& rotation, const Vec3d& normal, int row) {
+  for (int k = 0; k < 3; ++k) {
+    if (rotation(row, k) != 0 && normal[k] != 0) return false;
+  }
+  return true;
+}
+
 Aabb halfspace_box(const Shape& shape, const Pose& pose) {
   const Vec3d normal = pose.rotation * shape.normal;
   constexpr float infinite = std::numeric_limits<float>::infinity();
   Aabb box{{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}};
   for (int axis = 0; axis < 3; ++axis) {
-    if (normal[(axis + 1) % 3] != 0 || normal[(axis + 2) % 3] != 0) continue;
+    if (!is_exactly_zero(pose.rotation, shape.normal, (axis + 1) % 3) ||
+        !is_exactly_zero(pose.rotation, shape.normal, (axis + 2) % 3)) {
+      continue;
+    }
     // The points are x = R p + t with n . p <= offset, and R maps n to a multiple of this axis.
     // With R orthonormal that is (x - t) . (R n) <= offset.
     const double face = shape.offset / normal[axis];

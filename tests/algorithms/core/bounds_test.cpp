@@ -150,6 +150,11 @@ TEST(TightBox, OfAHalfSpaceIsCutOnlyAlongItsNormalsAxis) {
   EXPECT_LE(box.max[2], std::nextafter(8.5f, 9.0f));
   ground.normal = {1, 0, 1};
   EXPECT_EQ(tight_box(ground, pose).max, (std::array{inf, inf, inf}));
+  // Along x the turned normal is 2^-104, which rounding loses.
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  ground.normal = {1 + epsilon, 1 + 2 * epsilon, 1};
+  pose.rotation << 1 + epsilon, -1, 0, 0, 0, 0, 0, 0, 1;
+  EXPECT_EQ(tight_box(ground, pose).max, (std::array{inf, inf, inf}));
 }
 
 TEST(Rounding, IsOutwardAndExactWhereItCanBe) {
