@@ -93,30 +93,29 @@ Interval extent(const Shape& shape, const Vec3d& row, double& magnitude) {
   return {-inf, inf};
 }
 
-// Whether a component of R n is zero in exact numbers: no product of it is rounded away.
-bool is_exactly_zero(const Mat3d& rotation, const Vec3d& normal, int row) {
-  for (int k = 0; k < 3; ++k) {
-    if (rotation(row, k) != 0 && normal[k] != 0) return false;
-  }
-  return true;
-}
-
+// The points are x = R p + t with n . p <= offset, so the half-space is cut along a world axis if
+// and only if n is a multiple of that row of R; whatever R is. Asked for are multiples that are exact
+// whatever the rounding: both along one axis of the body.
 Aabb halfspace_box(const Shape& shape, const Pose& pose) {
-  const Vec3d normal = pose.rotation * shape.normal;
   constexpr float infinite = std::numeric_limits<float>::infinity();
   Aabb box{{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}};
+  const auto is_along = [](const Vec3d& v, int k) {
+    return v[k] != 0 && v[(k + 1) % 3] == 0 && v[(k + 2) % 3] == 0;
+  };
   for (int axis = 0; axis < 3; ++axis) {
-    if (!is_exactly_zero(pose.rotation, shape.normal, (axis + 1) % 3) ||
-        !is_exactly_zero(pose.rotation, shape.normal, (axis + 2) % 3)) {
-      continue;
+    const Vec3d row = pose.rotation.row(axis);
+    for (int k = 0; k < 3; ++k) {
+      if (!is_along(shape.normal, k) || !is_along(row, k)) continue;
+      const double ratio = shape.normal[k] / row[k], face = shape.offset / ratio;
+      if (!std::isnormal(ratio)) continue;
+      // A quotient that is no normal number is off by up to half the least number.
+      const bool is_normal = shape.offset == 0 || std::isnormal(face);
+      const double slack = rounding * (std::abs(face) + std::abs(pose.translation[axis])) +
+                           (is_normal ? 0 : std::numeric_limits<double>::denorm_min());
+      const double at = pose.translation[axis] + face;
+      if (ratio > 0) box.max[axis] = round_up(at + slack);
+      if (ratio < 0) box.min[axis] = round_down(at - slack);
     }
-    // The points are x = R p + t with n . p <= offset, and R maps n to a multiple of this axis.
-    // With R orthonormal that is (x - t) . (R n) <= offset.
-    const double face = shape.offset / normal[axis];
-    const double slack = rounding * (std::abs(face) + std::abs(pose.translation[axis]));
-    const double at = pose.translation[axis] + face;
-    if (normal[axis] > 0) box.max[axis] = round_up(at + slack);
-    if (normal[axis] < 0) box.min[axis] = round_down(at - slack);
   }
   return box;
 }

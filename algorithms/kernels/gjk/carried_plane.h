@@ -14,9 +14,9 @@
 #pragma once
 
 #include <array>
-#include <bit>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "algorithms/core/pose.h"
 

@@ -17,8 +17,8 @@ struct FirstPlane {
   CornerPair corners;  // those that are furthest along the line of centres
 };
 
-// Whether it is worth while: both cores are boxes or hulls whose vertices are scanned, not both are
-// boxes, and their centres are so far apart that the bodies probably are. It may be asked whether or
+// Whether it is worth while: the second core is a hull whose vertices are scanned, the first is one or
+// a box, and their centres are so far apart that the bodies probably are. It may be asked whether or
 // not.
 template <class Scalar>
 bool may_be_parted(const CentreOffset& offset, const SupportShape<Scalar>& a,

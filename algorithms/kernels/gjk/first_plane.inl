@@ -18,16 +18,17 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE hull_scan::Found<Scalar> reach_at(
 }
 
 // With n the offset of the centres, a corner v of a core in its unit, |v| <= 1, and a matrix R whose
-// entries are below two, n . R v is the product of v with R^T n. Rounding moves R^T n by 18 u |n| in
-// double and by 4 u |n| more in the scalar, the product by 18 u |n|, and v by u. The offset is off by
-// a few u of the lengths, and by its doubt.
+// entries are below two, n . R v is the product of v with R^T n, which is at most 6 |n|. In units of u
+// and of |n| times the unit, rounding takes 18 of R^T n in double and 6 in the scalar, 18 of the
+// product, 6 of v, 7 of the sums, and up to 30 of the offset, with what its doubt says: less than 128.
 template <class Scalar>
 TOUCHSTONE_TARGET FirstPlane first_plane_at(const CentreOffset& offset,
                                             const SupportShape<Scalar>& a, const Pose& pose_a,
                                             const SupportShape<Scalar>& b, const Pose& pose_b) {
   using Numbers = Quad<double>;
-  constexpr double rounding = 32 * std::numeric_limits<Scalar>::epsilon();
-  // Products of shorter offsets lose digits.
+  constexpr double rounding = 64 * std::numeric_limits<Scalar>::epsilon();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Products of shorter offsets lose digits; those of long ones overflow, and the gap with them.
   constexpr double shortest = sizeof(Scalar) == 8 ? 1e-140 : 1e-30;
   const QuadColumns columns_a = columns_at(pose_a), columns_b = columns_at(pose_b);
   const Numbers normal{offset.vector.x(), offset.vector.y(), offset.vector.z(), 0};
@@ -41,6 +42,7 @@ TOUCHSTONE_TARGET FirstPlane first_plane_at(const CentreOffset& offset,
       in_a[3] - a.unit * static_cast<double>(of_a.value) - b.unit * static_cast<double>(of_b.value);
   const double length = in_b[3];
   const double lost = (rounding * (length + a.unit + b.unit) + 2 * offset.doubt) * length;
-  const bool parts = gap > lost && length > shortest && are_below_two(columns_a, columns_b);
+  const bool parts =
+      gap > lost && gap < infinity && length > shortest && are_below_two(columns_a, columns_b);
   return {parts, {of_a.index, of_b.index}};
 }

@@ -6,6 +6,7 @@
 //          2. Solve batches with a half-space by one support point (kernels/minkowski/halfspace).
 //          3. For the batch's two kinds, select the compiled loops from a table (specialised_gjk).
 //          4. Pairs whose bounding balls are apart are separated (not for distance).
+//             So are hulls that the line of centres parts, for yes or no (kernels/gjk/first_plane).
 //          5. Iterate with the selected loops (kernels/gjk/gjk_iteration, gjk_distance).
 //          6. If the cores meet, find the depth with EPA (kernels/gjk/gjk_query).
 // Departs: the loops are gjk's, compiled with the two cores as template parameters, so outcomes

@@ -155,6 +155,19 @@ TEST(TightBox, OfAHalfSpaceIsCutOnlyAlongItsNormalsAxis) {
   ground.normal = {1 + epsilon, 1 + 2 * epsilon, 1};
   pose.rotation << 1 + epsilon, -1, 0, 0, 0, 0, 0, 0, 1;
   EXPECT_EQ(tight_box(ground, pose).max, (std::array{inf, inf, inf}));
+  // A matrix that shears turns the plane, and one that scales moves it.
+  ground.normal = {1, 0, 0};
+  pose.rotation << 1, 1e-17, 0, 0, 1, 0, 0, 0, 1;
+  EXPECT_EQ(tight_box(ground, pose).max, (std::array{inf, inf, inf}));
+  pose.rotation = 1.5 * Mat3d::Identity();
+  EXPECT_GE(tight_box(ground, pose).max[0], 9.5f);
+  EXPECT_LE(tight_box(ground, pose).max[0], std::nextafter(9.5f, 10.0f));
+  pose.rotation << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  EXPECT_EQ(tight_box(ground, pose).max, (std::array{inf, inf, std::nextafter(10.0f, 11.0f)}));
+  ground.normal = {0, 0, 2};
+  EXPECT_EQ(tight_box(ground, pose).max, (std::array{inf, inf, inf}));
+  EXPECT_LE(tight_box(ground, pose).min[0], 3.5f);
+  EXPECT_GE(tight_box(ground, pose).min[0], std::nextafter(3.5f, 3.0f));
 }
 
 TEST(Rounding, IsOutwardAndExactWhereItCanBe) {

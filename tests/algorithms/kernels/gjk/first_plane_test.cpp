@@ -85,6 +85,33 @@ TEST(FirstPlane, PartsOnlyWhatIsApart) {
   EXPECT_GT(met, all / 2);
 }
 
+// Where products overflow, no sum of them is believed.
+TEST(FirstPlane, IsSilentWhereProductsOverflow) {
+  std::vector<Vec3d> octahedron;
+  for (int k = 0; k < 3; ++k) {
+    octahedron.push_back(0.9e154 * Vec3d::Unit(k));
+    octahedron.push_back(-0.9e154 * Vec3d::Unit(k));
+  }
+  Pair pair{make_hull(octahedron), make_hull(octahedron)};
+  pair.pose_b.translation = {1.5e154, 0, 0};
+  EXPECT_FALSE(plane_of<double>(pair).parts);
+
+  // No vertex of a has only positive coordinates, nor has one of b only negative ones.
+  std::vector<Vec3d> of_a, of_b;
+  for (const Vec3d& v : {Vec3d{-1, -0.8, -0.6}, Vec3d{1, 1, -0.01}, Vec3d{1, -0.01, 1},
+                         Vec3d{-0.01, 1, 1}, Vec3d{-0.6, -1, -0.8}, Vec3d{-0.8, -0.6, -1}}) {
+    of_a.push_back(1e39 * v);
+    of_b.push_back(-1e39 * v);
+  }
+  pair = {make_hull(of_a), make_hull(of_b)};
+  pair.pose_b.translation = Vec3d::Constant(1.25e39);
+  for (const Isa level : isa_levels()) {
+    limit_isa(level);
+    EXPECT_FALSE(plane_of<float>(pair).parts) << to_string(level);
+  }
+  limit_isa(isa_of_machine());
+}
+
 // Vertices of a hull, or corners of a box as its sign bits number them.
 Vec3d corner(const Shape& shape, std::uint32_t number) {
   if (shape.kind != ShapeKind::box) return shape.hull->vertices[number];
