@@ -102,20 +102,21 @@ Aabb halfspace_box(const Shape& shape, const Pose& pose) {
   const auto is_along = [](const Vec3d& v, int k) {
     return v[k] != 0 && v[(k + 1) % 3] == 0 && v[(k + 2) % 3] == 0;
   };
+  int along = 0;
+  while (along < 3 && !is_along(shape.normal, along)) ++along;
+  if (along == 3) return box;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3d row = pose.rotation.row(axis);
-    for (int k = 0; k < 3; ++k) {
-      if (!is_along(shape.normal, k) || !is_along(row, k)) continue;
-      const double ratio = shape.normal[k] / row[k], face = shape.offset / ratio;
-      if (!std::isnormal(ratio)) continue;
-      // A quotient that is no normal number is off by up to half the least number.
-      const bool is_normal = shape.offset == 0 || std::isnormal(face);
-      const double slack = rounding * (std::abs(face) + std::abs(pose.translation[axis])) +
-                           (is_normal ? 0 : std::numeric_limits<double>::denorm_min());
-      const double at = pose.translation[axis] + face;
-      if (ratio > 0) box.max[axis] = round_up(at + slack);
-      if (ratio < 0) box.min[axis] = round_down(at - slack);
-    }
+    if (!is_along(row, along)) continue;
+    const double ratio = shape.normal[along] / row[along], face = shape.offset / ratio;
+    if (!std::isnormal(ratio)) continue;
+    // A quotient that is no normal number is off by up to half the least number.
+    const bool is_normal = shape.offset == 0 || std::isnormal(face);
+    const double slack = rounding * (std::abs(face) + std::abs(pose.translation[axis])) +
+                         (is_normal ? 0 : std::numeric_limits<double>::denorm_min());
+    const double at = pose.translation[axis] + face;
+    if (ratio > 0) box.max[axis] = round_up(at + slack);
+    if (ratio < 0) box.min[axis] = round_down(at - slack);
   }
   return box;
 }

@@ -9,28 +9,20 @@
 #include <vector>
 
 #include "algorithms/oracle/oracle.h"
+#include "tests/algorithms/kernels/gjk/placed_pair.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/random.h"
-#include "tests/algorithms/shapes.h"
 
 namespace touchstone {
 namespace {
 
 using namespace reference;
 
-Shape hull(Random& random, double size) {
-  std::vector<Vec3d> vertices;
-  const Vec3d centre = random.vector(size);
-  for (int i = 0; i < 8; ++i) vertices.push_back(centre + size * random.direction());
-  return make_hull(std::move(vertices));
-}
-
 Shape shape_of(Random& random, double size) {
   switch (random.below(5)) {
     case 0: return make_sphere(size);
     case 1: return make_capsule(0.3 * size, 0.7 * size);
     case 2: return make_cone(0.6 * size, 0.5 * size);
-    case 3: return hull(random, size);
+    case 3: return hull_somewhere(random, size, 8);
     default: return make_box(size, 0.5 * size, 1e-3 * size);
   }
 }
@@ -55,32 +47,17 @@ void turn(Random& random, double most, Pose& pose) {
   pose.rotation = Eigen::AngleAxisd(angle, random.direction()).toRotationMatrix() * pose.rotation;
 }
 
-struct Pair {
-  Shape a, b;
-  Pose pose_a = {}, pose_b = {};
-
-  oracle::Measure measure(oracle::Oracle& oracle) const {
-    const oracle::Solid solid_a(a), solid_b(b);
-    return oracle.measure({solid_a, pose_a}, {solid_b, pose_b});
-  }
+struct Pair : PlacedPair {
   CarriedPlane plane(const Vec3d& normal, double gap) const {
     return CarriedPlane::make(normal, gap, radius_of(a), pose_a, radius_of(b), pose_b);
   }
   bool part(const CarriedPlane& plane) const { return plane.parts(pose_a, pose_b); }
 };
 
-// A pair that is apart by `share` of its size, with matrices that may be a little skewed.
+// A pair that is apart by `share` of its size.
 Pair pair_apart(Random& random, double size, double share, oracle::Oracle& oracle) {
-  Pair pair{shape_of(random, size), shape_of(random, size * std::pow(10, random.uniform(-2, 0)))};
-  for (Pose* pose : {&pair.pose_a, &pair.pose_b}) {
-    pose->rotation = random.rotation();
-    if (random.below(3) == 0) pose->rotation.col(1) += random.vector(1e-3);
-    pose->translation = random.vector(3 * size);
-  }
-  for (int k = 0; k < 3; ++k) {
-    const oracle::Measure measure = pair.measure(oracle);
-    pair.pose_b.translation += (share * size - measure.middle()) * measure.normal;
-  }
+  Pair pair{{shape_of(random, size), shape_of(random, size * std::pow(10, random.uniform(-2, 0)))}};
+  pair.place(random, size, share * size, oracle);
   return pair;
 }
 
@@ -119,7 +96,7 @@ TEST(CarriedPlane, PartsOnlyWhatIsApart) {
 }
 
 TEST(CarriedPlane, CarriesADirectionAlone) {
-  Pair pair{make_sphere(1), make_sphere(1)};
+  Pair pair{{make_sphere(1), make_sphere(1)}};
   pair.pose_b.translation = {3, 0, 0};
   const Vec3d x = Vec3d::UnitX();
   EXPECT_TRUE(pair.part(pair.plane(x, 1)));
@@ -131,19 +108,19 @@ TEST(CarriedPlane, CarriesADirectionAlone) {
 
 TEST(CarriedPlane, IsEmptyBeyondTheRangeOfItsNumbers) {
   for (const double size : {1e39, 1e200, std::numeric_limits<double>::infinity()}) {
-    Pair pair{make_sphere(size), make_sphere(size)};
+    Pair pair{{make_sphere(size), make_sphere(size)}};
     pair.pose_b.translation = {3 * size, 0, 0};
     EXPECT_FALSE(pair.part(pair.plane(Vec3d::UnitX(), size))) << size;
   }
   // Lengths below the least float are rounded up to it, and prove nothing.
-  Pair pair{make_sphere(1e-60), make_sphere(1e-60)};
+  Pair pair{{make_sphere(1e-60), make_sphere(1e-60)}};
   pair.pose_b.translation = {3e-60, 0, 0};
   EXPECT_FALSE(pair.part(pair.plane(Vec3d::UnitX(), 1e-60)));
 }
 
 // A matrix that stretches makes a body reach further than it did.
 TEST(CarriedPlane, HeedsMatricesThatStretch) {
-  Pair pair{make_box(1, 1, 1), make_box(1, 1, 1)};
+  Pair pair{{make_box(1, 1, 1), make_box(1, 1, 1)}};
   pair.pose_b.translation = {2.5, 0, 0};
   const CarriedPlane plane = pair.plane(Vec3d::UnitX(), 0.4);
   EXPECT_TRUE(pair.part(plane));
@@ -163,7 +140,7 @@ TEST(CarriedPlane, HeedsMatricesThatStretch) {
 // Whatever is changed in memory, it is not believed.
 TEST(CarriedPlane, BelievesOnlyWhatItWrote) {
   Random random(6);
-  Pair pair{make_sphere(1), make_sphere(1)};
+  Pair pair{{make_sphere(1), make_sphere(1)}};
   pair.pose_b.translation = {3, 0, 0};
   const CarriedPlane plane = pair.plane(Vec3d::UnitX(), 1);
   EXPECT_TRUE(pair.part(plane));

@@ -11,9 +11,8 @@
 
 #include "algorithms/core/isa.h"
 #include "algorithms/oracle/oracle.h"
+#include "tests/algorithms/kernels/gjk/placed_pair.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/random.h"
-#include "tests/algorithms/shapes.h"
 
 namespace touchstone::first_plane_test {
 namespace {
@@ -21,42 +20,21 @@ namespace {
 using namespace reference;
 
 Shape hull(Random& random, double size) {
-  std::vector<Vec3d> vertices;
-  const Vec3d centre = random.vector(size);
-  const int count = 5 + random.below(40);
-  for (int i = 0; i < count; ++i) vertices.push_back(centre + size * random.direction());
-  return make_hull(std::move(vertices));
+  return hull_somewhere(random, size, 5 + random.below(40));
 }
 
-struct Pair {
-  Shape a, b;
-  Pose pose_a = {}, pose_b = {};
-
-  oracle::Measure measure(oracle::Oracle& oracle) const {
-    const oracle::Solid solid_a(a), solid_b(b);
-    return oracle.measure({solid_a, pose_a}, {solid_b, pose_b});
-  }
-};
-
-// Two bodies that are apart by `share` of their size, or overlap by it.
-Pair pair_at(Random& random, double size, double share, oracle::Oracle& oracle) {
+// Two bodies that are apart by `share` of the size of b, or overlap by it.
+PlacedPair pair_at(Random& random, double size, double share, oracle::Oracle& oracle) {
   const double other = size * std::pow(10, random.uniform(-1, 0));
-  Pair pair{random.below(3) == 0 ? make_box(size, 0.5 * size, 0.2 * size) : hull(random, size),
-            hull(random, other)};
-  for (Pose* pose : {&pair.pose_a, &pair.pose_b}) {
-    pose->rotation = random.rotation();
-    if (random.below(3) == 0) pose->rotation.col(1) += random.vector(1e-3);
-    pose->translation = random.vector(3 * size);
-  }
-  for (int k = 0; k < 3; ++k) {
-    const oracle::Measure measure = pair.measure(oracle);
-    pair.pose_b.translation += (share * other - measure.middle()) * measure.normal;
-  }
+  PlacedPair pair{
+      random.below(3) == 0 ? make_box(size, 0.5 * size, 0.2 * size) : hull(random, size),
+      hull(random, other)};
+  pair.place(random, size, share * other, oracle);
   return pair;
 }
 
 template <class Scalar>
-FirstPlane plane_of(const Pair& pair) {
+FirstPlane plane_of(const PlacedPair& pair) {
   const SupportShape<Scalar> a(pair.a), b(pair.b);
   return first_plane(centre_offset(a, pair.pose_a, b, pair.pose_b), a, pair.pose_a, b, pair.pose_b);
 }
@@ -67,8 +45,8 @@ TEST(FirstPlane, PartsOnlyWhatIsApart) {
   int parted = 0, open = 0, met = 0;
   for (int n = 0; n < drawn(1500, 300); ++n) {
     const double size = std::pow(10, random.uniform(-6, 6));
-    const double near = std::pow(10, random.uniform(-7, -0.5));
-    const Pair pair = pair_at(random, size, random.below(3) == 0 ? -near : near, oracle);
+    const double near = std::pow(10, random.uniform(-5, 0.5));
+    const PlacedPair pair = pair_at(random, size, random.below(3) == 0 ? -near : near, oracle);
     const bool apart = pair.measure(oracle).lower > 0;
     for (const Isa level : isa_levels()) {
       limit_isa(level);
@@ -92,7 +70,7 @@ TEST(FirstPlane, IsSilentWhereProductsOverflow) {
     octahedron.push_back(0.9e154 * Vec3d::Unit(k));
     octahedron.push_back(-0.9e154 * Vec3d::Unit(k));
   }
-  Pair pair{make_hull(octahedron), make_hull(octahedron)};
+  PlacedPair pair{make_hull(octahedron), make_hull(octahedron)};
   pair.pose_b.translation = {1.5e154, 0, 0};
   EXPECT_FALSE(plane_of<double>(pair).parts);
 
@@ -127,7 +105,7 @@ TEST(FirstPlane, KeepsTheCornersThatAreFurthest) {
   oracle::Oracle oracle;
   int of_boxes = 0, of_hulls = 0;
   for (int n = 0; n < drawn(400, 100); ++n) {
-    const Pair pair = pair_at(random, 1, random.uniform(-0.3, 0.3), oracle);
+    const PlacedPair pair = pair_at(random, 1, random.uniform(-0.3, 0.3), oracle);
     const SupportShape<double> a(pair.a), b(pair.b);
     const CentreOffset offset = centre_offset(a, pair.pose_a, b, pair.pose_b);
     const FirstPlane plane = first_plane(offset, a, pair.pose_a, b, pair.pose_b);
@@ -153,7 +131,7 @@ TEST(FirstPlane, KeepsTheCornersThatAreFurthest) {
 TEST(FirstPlane, IsSilentWhereItsBoundsDoNotHold) {
   Random random(9);
   const auto at = [&](double size, double distance) {
-    Pair pair{hull(random, size), hull(random, size)};
+    PlacedPair pair{hull(random, size), hull(random, size)};
     pair.pose_b.translation = {distance, 0, 0};
     return pair;
   };
@@ -167,7 +145,7 @@ TEST(FirstPlane, IsSilentWhereItsBoundsDoNotHold) {
   }
   for (const double entry :
        {1e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-    Pair pair = at(1, 20);
+    PlacedPair pair = at(1, 20);
     pair.pose_a.rotation(1, 2) = entry;
     EXPECT_FALSE(plane_of<double>(pair).parts) << entry;
     pair = at(1, 20);
