@@ -15,6 +15,7 @@ std::vector<PlannedCell> point_cells(files::TomlTable& table, const std::filesys
 std::vector<PlannedCell> cast_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> motion_cells(files::TomlTable& table, const std::filesystem::path& home);
+std::vector<PlannedCell> frame_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> sliding_cells(files::TomlTable& table, const std::filesystem::path& home);
 std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesystem::path& home);
 

@@ -16,10 +16,11 @@ namespace touchstone::cells {
 namespace {
 
 using MakeCells = std::vector<PlannedCell> (*)(files::TomlTable&, const std::filesystem::path&);
-constexpr std::array<std::string_view, 7> kinds = {"rays",    "points", "casts",  "ccd",
-                                                   "concave", "motion", "sliding"};
-constexpr std::array<MakeCells, 7> makers = {ray_cells,     point_cells,  cast_cells,   ccd_cells,
-                                             concave_cells, motion_cells, sliding_cells};
+constexpr std::array<std::string_view, 8> kinds = {"rays",    "points", "casts",   "ccd",
+                                                   "concave", "motion", "sliding", "frames"};
+constexpr std::array<MakeCells, 8> makers = {ray_cells,     point_cells,   cast_cells,
+                                             ccd_cells,     concave_cells, motion_cells,
+                                             sliding_cells, frame_cells};
 
 std::string fingerprint(const std::string& text) {
   std::uint64_t hash = 0;

@@ -118,6 +118,8 @@ struct SceneOverrides {
   int frames = -1;          // -1: from the file
   // Signed gap in metres for the generator `pairs`; it becomes part of the scene's name.
   std::optional<double> gap = {};
+  // Share of the bodies of a generated scene that move, 0 to 1.
+  std::optional<double> moving = {};
 };
 
 // Reads a scene file: TOML (a generator, bodies, or an import), rigid-ipc's JSON, or Broadmark's

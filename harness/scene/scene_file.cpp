@@ -12,6 +12,7 @@
 #include "harness/scene/body_reader.h"
 #include "harness/scene/generators/generated_motion.h"
 #include "harness/scene/generators/generators.h"
+#include "harness/scene/generators/overrides.h"
 #include "harness/scene/rigid_ipc.h"
 #include "harness/scene/scene.h"
 #include "harness/scene/shape_reader.h"
@@ -27,29 +28,6 @@ constexpr double broadmark_period = 6.2;      // seconds
 
 constexpr std::string_view motion_names[] = {"inertial", "brownian", "free_fall",
                                              "rotating_gravity"};
-
-void refuse_count(const std::string& file, const SceneOverrides& overrides) {
-  if (overrides.count == -1) return;
-  throw base::InputError(
-      file, 0,
-      fmt::format("a count of {} was asked for; expected none, as the bodies are "
-                  "listed and only a generator makes as many as one likes",
-                  overrides.count));
-}
-
-void refuse_seed(const std::string& file, const SceneOverrides& overrides) {
-  if (overrides.seed == -1) return;
-  throw base::InputError(file, 0, "a seed was asked for; expected none, as nothing is random");
-}
-
-void refuse_gap(const std::string& file, const SceneOverrides& overrides) {
-  if (!overrides.gap) return;
-  throw base::InputError(
-      file, 0,
-      fmt::format("a gap of {} was asked for, but only scenes of the generator `pairs` "
-                  "have gaps",
-                  *overrides.gap));
-}
 
 std::uint64_t read_seed(files::TomlTable& table, const SceneOverrides& overrides) {
   const std::int64_t seed = table.integer("seed", 0, INT64_MAX, 1);
@@ -85,7 +63,7 @@ void read_motion_of_listed(files::TomlTable& table, const SceneOverrides& overri
     motion.speed = table.number("speed", files::not_negative, 1.0);
     motion.seed = read_seed(table, overrides);
   } else {
-    refuse_seed(table.file(), overrides);
+    refuse_seed(table.file(), overrides.seed);
   }
   if (!table.has("wall_min") && !table.has("wall_max")) return;
   motion.wall_min = table.vector("wall_min", files::any_number);
@@ -114,10 +92,12 @@ Scene generate(files::TomlTable& table, ShapeReader& shapes, const SceneOverride
         table.file(), 0,
         fmt::format("a count of {} was asked for; expected 1 to {}", count, most_bodies));
   }
-  if (generator.name != "pairs") refuse_gap(table.file(), overrides);
+  if (generator.name != "pairs") refuse_gap(table.file(), overrides.gap);
   GeneratorInput input{table, shapes, count, read_seed(table, overrides), overrides.gap};
   if (generator.name == "pairs") input.frames = frames_of_pairs(table, overrides);
+  input.moving = overrides.moving;
   Generated made = generator.make(input);
+  if (!input.takes_moving) refuse_moving(table.file(), overrides.moving);
   made.scene.motion.seed = input.random(GeneratorInput::motion_stream).next();
   read_motion(table, made.side, made.scene.motion);
   read_step(table, made.scene);
@@ -201,12 +181,11 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
       frames = scene.frames;
       scene.files.push_back(imported);
     }
-    refuse_count(file, overrides);
-    refuse_gap(file, overrides);
+    refuse_for_listed(file, overrides);
     if (scene.recording.empty()) {
       read_motion_of_listed(table, overrides, scene);
     } else {
-      refuse_seed(file, overrides);
+      refuse_seed(file, overrides.seed);
     }
   }
   for (std::filesystem::path& mesh : shapes.files()) scene.files.push_back(std::move(mesh));
@@ -286,9 +265,8 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
     scene = read_toml(path, overrides, lines);
   } else {
     scene = import_scene(path, {});
-    refuse_count(file, overrides);
-    refuse_seed(file, overrides);
-    refuse_gap(file, overrides);
+    refuse_for_listed(file, overrides);
+    refuse_seed(file, overrides.seed);
     scene.name = path.stem().string();
     if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
   }

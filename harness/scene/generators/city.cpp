@@ -24,7 +24,7 @@ Shape box(double x, double y, double z) {
 Generated make_city(GeneratorInput& input) {
   const double block = input.table.number("block", {.low = 8, .high = 1e6}, 20.0);
   const auto [lowest, highest] = input.table.range("height", files::positive, {4, 200});
-  const double share = input.table.number("moving", {.low = 0, .high = 1}, 0.5);
+  const double share = input.share_moving(0.5);
   const double speed = input.table.number("speed", files::not_negative, 15.0);
 
   Generated made;

@@ -57,7 +57,7 @@ Scene make_bodies(GeneratorInput& input, const ShapeMixDefaults& defaults, bool 
 
 void set_in_motion(GeneratorInput& input, const MovementDefaults& defaults, std::size_t first,
                    Scene& scene) {
-  const double share = input.table.number("moving", {.low = 0, .high = 1}, defaults.moving);
+  const double share = input.share_moving(defaults.moving);
   const double speed = input.table.number("speed", files::not_negative, defaults.speed);
   const double spin = input.table.number("spin", files::not_negative, defaults.spin);
   scene.motion.speed = speed;

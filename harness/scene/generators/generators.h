@@ -18,8 +18,17 @@ struct GeneratorInput {
   ShapeReader& shapes;
   std::int64_t count;  // number of bodies, at least one
   std::uint64_t seed;
-  std::optional<double> gap = {};  // replaces the file's gaps for all pairs (metres)
-  int frames = 1;                  // the scene's frames, for generators that need the number
+  std::optional<double> gap = {};     // replaces the file's gaps for all pairs (metres)
+  int frames = 1;                     // the scene's frames, for generators that need the number
+  std::optional<double> moving = {};  // replaces the file's share of moving bodies
+  bool takes_moving = false;          // the generator has asked for that share
+
+  // Returns the share of the bodies that move.
+  double share_moving(double fallback) {
+    takes_moving = true;
+    const double own = table.number("moving", {.low = 0, .high = 1}, fallback);
+    return moving.value_or(own);
+  }
 
   // Independent streams of random numbers for each property, so that a change of one parameter
   // leaves the other draws as they were.

@@ -145,6 +145,31 @@ TEST(Cells, OfMotion) {
   EXPECT_GT(missed, 0);
 }
 
+// Every question has answers, of fewer pairs than all of them; bodies come and go.
+TEST(Cells, OfFramesOfBroadPhases) {
+  const TemporaryFolder folder;
+  folder.write("resting.toml",
+               "generator = \"uniform\"\ncount = 300\noverlaps = 5\nstep = 0.3\nmoving = 1\n");
+  folder.write("churn.toml",
+               "generator = \"uniform\"\ncount = 300\noverlaps = 5\nstep = 0.3\nchurn = 0.2\n");
+  const auto request = request_of(
+      folder,
+      "kind = \"frames\"\nscenes = [\"resting.toml\", \"churn.toml\"]\nmoving = [0.1, 0.5]\n"
+      "frames = 5\nthreads = [1, 2]\n");
+  ASSERT_EQ(request.cells.size(), 2U * 2 * 2 * 3);
+  const Ran ran = run(request, folder.path() / "out");
+  expect_sound(ran, request.cells.size());
+  std::map<std::string, std::int64_t> told;
+  for (const stats::GradeRow& row : ran.grades) {
+    EXPECT_EQ(row.hits, row.true_hits) << row.algorithm;
+    EXPECT_GT(row.hits, 0) << row.group << " " << row.cell;
+    told[row.cell] += row.hits;
+  }
+  EXPECT_LT(told["changes"], told["moved"]);
+  EXPECT_LT(told["moved"], told["pairs"]);
+  EXPECT_EQ(told["moved"], told["moved, 2 threads"]);
+}
+
 // Alone, triangles push bodies aside; welded, none does.
 TEST(Cells, OfSlidingBodies) {
   const TemporaryFolder folder;
@@ -202,6 +227,16 @@ TEST(Cells, WrongFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(error_of(folder, "kind = \"rays\"\nqueries = 1\n"), HasSubstr("cells.toml:4"));
   EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nstars = 1\n"), HasSubstr("stars"));
   EXPECT_THAT(error_of(folder, "kind = \"motion\"\n"), HasSubstr("scenes"));
+  folder.write("listed.toml", "frames = 3\nbody = [{shape = {type = \"sphere\", radius = 1}}]\n");
+  folder.write("one.toml", "generator = \"uniform\"\ncount = 3\n");
+  const std::string frames = "kind = \"frames\"\n";
+  EXPECT_THAT(error_of(folder, frames), HasSubstr("scenes"));
+  EXPECT_THAT(error_of(folder, frames + "scenes = \"one.toml\"\nmoving = 2\n"),
+              HasSubstr("0 to 1"));
+  EXPECT_THAT(error_of(folder, frames + "scenes = \"one.toml\"\nframes = 1\n"),
+              HasSubstr("frames"));
+  EXPECT_THAT(error_of(folder, frames + "scenes = \"listed.toml\"\nmoving = 0.5\n"),
+              HasSubstr("listed.toml"));
   EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nvertex_face = \"nothing.csv\"\n"),
               HasSubstr("nothing.csv"));
 }
@@ -226,7 +261,7 @@ TEST(Cells, FilesOfQueriesOfOneNameAreToldApart) {
 }
 
 TEST(Cells, OfTheProjectsFilesAreRead) {
-  for (const char* name : {"rays", "casts", "ccd", "concave", "motion", "sliding"}) {
+  for (const char* name : {"rays", "casts", "ccd", "concave", "motion", "sliding", "frames"}) {
     const auto request = cells::read_cells(std::filesystem::path(project_folder) /
                                            "datasets/campaigns" / (std::string(name) + ".toml"));
     EXPECT_EQ(request.name, name);
