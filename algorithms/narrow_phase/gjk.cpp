@@ -71,13 +71,13 @@ class Gjk final : public NarrowPhase {
           planes_.answer(task, batch, false, outcomes, margin_);
       for_each_pair(planes_.others(batch).pairs, shapes_, ahead_, asks_distance(task),
                     [&](std::size_t k, const auto&... bodies) {
-                      solve_warm(task, batch, places[k], bodies..., outcomes[places[k]], true);
+                      solve_warm(task, batch, places[k], bodies..., outcomes[places[k]]);
                     });
       return;
     }
     for_each_bounded_pair(task, batch, shapes_, ahead_, asks_distance(task), outcomes,
                           [&](std::size_t i, const auto&... bodies) {
-                            solve_pair(task, batch, i, bodies..., outcomes[i], false);
+                            solve_pair(task, batch, i, bodies..., outcomes[i]);
                           });
   }
 
@@ -85,31 +85,30 @@ class Gjk final : public NarrowPhase {
     const bool warm = warm_ && WarmPlanes::may_answer(task, batch, margin_);
     if (warm && WarmPlanes::answer_alone(task, batch, i, outcome, margin_)) return;
     for_bounded_pair(task, batch, i, shapes_, outcome, [&](std::size_t, const auto&... bodies) {
-      solve_pair(task, batch, i, bodies..., outcome, warm);
+      solve_pair(task, batch, i, bodies..., outcome);
     });
   }
 
  private:
-  // `plane_fails`: see GjkQuery.
   void solve_pair(Task task, const PairBatch& batch, std::size_t i, const SupportShape<Scalar>& a,
                   const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b,
-                  Outcome& outcome, bool plane_fails) {
+                  Outcome& outcome) {
     if (!warm_ || batch.memory.empty()) {
       query_.solve(a, pose_a, b, pose_b, task, nullptr, outcome);
       return;
     }
-    solve_warm(task, batch, i, a, pose_a, b, pose_b, outcome, plane_fails);
+    solve_warm(task, batch, i, a, pose_a, b, pose_b, outcome);
   }
 
   void solve_warm(Task task, const PairBatch& batch, std::size_t i, const SupportShape<Scalar>& a,
                   const Pose& pose_a, const SupportShape<Scalar>& b, const Pose& pose_b,
-                  Outcome& outcome, bool plane_fails) {
+                  Outcome& outcome) {
     PairMemory& memory = batch.memory[batch.memory_of[i]];
     static_assert(sizeof(WarmStart) <= sizeof memory.bytes &&
                   std::is_trivially_copyable_v<WarmStart>);
     WarmStart start;
     std::memcpy(&start, memory.bytes.data(), sizeof start);
-    query_.solve(a, pose_a, b, pose_b, task, &start, outcome, plane_fails);
+    query_.solve(a, pose_a, b, pose_b, task, &start, outcome);
     std::memcpy(memory.bytes.data(), &start, sizeof start);
   }
 

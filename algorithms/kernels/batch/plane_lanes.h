@@ -1,7 +1,8 @@
 // Tests the separating planes that pairs of bodies carry (kernels/gjk/carried_plane.h), one pair in
 // each lane of vectors. Used by gjk, gjk-lanes, ellipsoid and smooth through warm_planes.h.
 //
-// A lane makes the operations of CarriedPlane::parts in another order, so its proof is that one's. No shape is read.
+// A lane makes the operations of CarriedPlane::parts in another order, so its proof is that one's.
+// No shape is read.
 // Cost:    27 products a pair, and the loads of two poses and of 40 bytes.
 #pragma once
 

@@ -57,24 +57,20 @@ bool is_at_a_face(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex, Out
 
 }  // namespace
 
-// Returns the offset of the centres, or writes the answer and returns nothing if the last plane or the
-// bounding balls part the bodies enough.
+// Returns the offset of the centres, or writes the answer and returns nothing if the bounding balls
+// are apart enough.
 template <class Scalar>
 [[gnu::always_inline]] inline std::optional<CentreOffset> GjkQuery<Scalar>::offset_unless_apart(
     const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
-    const Pose& pose_b, Task task, const CarriedPlane* plane, Outcome& outcome) const {
+    const Pose& pose_b, Task task, Outcome& outcome) const {
   const bool measured = asks_distance(task);
   const double margin = measured ? settings_.margin : 0;
   if (!(margin < std::numeric_limits<double>::infinity()))
     return centre_offset(a, pose_a, b, pose_b);
-  const bool parted = plane != nullptr && (measured ? plane->parts(pose_a, pose_b, margin)
-                                                    : plane->parts(pose_a, pose_b));
-  if (!parted) {
-    const CentreOffset offset = centre_offset(a, pose_a, b, pose_b);
-    const bool apart = measured ? balls_are_apart_by(margin, offset, a, pose_a, b, pose_b)
-                                : balls_are_apart(offset, a, pose_a, b, pose_b);
-    if (!apart) return offset;
-  }
+  const CentreOffset offset = centre_offset(a, pose_a, b, pose_b);
+  const bool apart = measured ? balls_are_apart_by(margin, offset, a, pose_a, b, pose_b)
+                              : balls_are_apart(offset, a, pose_a, b, pose_b);
+  if (!apart) return offset;
   outcome.answer = Answer::separated;
   outcome.status = Status::ok;
   if (measured) write_beyond(margin, outcome);
@@ -85,10 +81,9 @@ template <class Scalar>
 template <class Scalar>
 void GjkQuery<Scalar>::solve(const SupportShape<Scalar>& a, const Pose& pose_a,
                              const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
-                             WarmStart* start, Outcome& outcome, bool plane_fails) {
-  const CarriedPlane* const plane = start == nullptr || plane_fails ? nullptr : &start->plane;
+                             WarmStart* start, Outcome& outcome) {
   const std::optional<CentreOffset> offset =
-      offset_unless_apart(a, pose_a, b, pose_b, task, plane, outcome);
+      offset_unless_apart(a, pose_a, b, pose_b, task, outcome);
   if (!offset) return;
   outcome.iterations = 0;
   if (start == nullptr && task == Task::intersect && takes_fast_gjk(a, b)) {

@@ -28,13 +28,11 @@ class GjkQuery {
       : settings_(settings), polytope_(settings.epa_cap) {}
 
   // Solves a pair of bounded bodies. A verdict is `ok` only if a bound proves it beyond rounding.
-  // If the plane of `start` still parts the bodies, or if their bounding balls are apart, no
-  // iteration is made except for a distance; nor for that if they are by more than the margin.
-  // Starts from `start` unless it is null, and stores the result there. `plane_fails`: its plane was
-  // tried, and does not part the bodies.
+  // If their bounding balls are apart, no iteration is made except for a distance; nor for that if
+  // they are by more than the margin. Starts from `start` unless it is null, and stores the result
+  // there; its plane is the caller's to try before.
   void solve(const SupportShape<Scalar>& a, const Pose& pose_a, const SupportShape<Scalar>& b,
-             const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome,
-             bool plane_fails = false);
+             const Pose& pose_b, Task task, WarmStart* start, Outcome& outcome);
 
   // Sets the functions for the next queries; they must fit the cores of those queries.
   void set_functions(const CoreFunctions<Scalar>& functions) { functions_ = functions; }
@@ -52,8 +50,7 @@ class GjkQuery {
 
   std::optional<CentreOffset> offset_unless_apart(const SupportShape<Scalar>& a, const Pose& pose_a,
                                                   const SupportShape<Scalar>& b, const Pose& pose_b,
-                                                  Task task, const CarriedPlane* plane,
-                                                  Outcome& outcome) const;
+                                                  Task task, Outcome& outcome) const;
   bool takes_fast_gjk(const SupportShape<Scalar>& a, const SupportShape<Scalar>& b) const;
   void decide(const CentreOffset& offset, const SupportShape<Scalar>& a, const Pose& pose_a,
               const SupportShape<Scalar>& b, const Pose& pose_b, Outcome& outcome);

@@ -49,7 +49,8 @@ inline constexpr std::size_t most_blocks = 16;  // blocks that are tested togeth
 
 // The function `furthest_at(blocks, x, y, z)` of each level returns the index of the vertex with
 // the greatest d.v, and the first if there are several. The result is equal at every level. NaN
-// never compares as greatest: if all are NaN the index is 0.
+// is never the greatest, but a product that is infinite may be lost beside it; if all are NaN the
+// index is 0.
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/minkowski/hull_scan.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 

@@ -87,7 +87,7 @@ class GjkInLanes final : public NarrowPhase {
                                   : lanes_.solve(batch.kind_a, batch.kind_b, batch.pairs, goal,
                                                  places, outcomes, left_.data());
     for (std::size_t k = 0; k < count; ++k) {
-      solve_serially(task, batch, left_[k], warm, true, outcomes[left_[k]]);
+      solve_serially(task, batch, left_[k], warm, outcomes[left_[k]]);
     }
     if (warm) keep_planes(batch, places, outcomes);
   }
@@ -97,7 +97,7 @@ class GjkInLanes final : public NarrowPhase {
     if (warm && WarmPlanes::answer_alone(task, batch, i, outcome)) return;
     if (Lanes::is_curved(batch.kind_a) || Lanes::is_curved(batch.kind_b)) {
       // One curved pair fills too little of the lanes.
-      solve_serially(task, batch, i, !batch.memory.empty(), warm, outcome);
+      solve_serially(task, batch, i, !batch.memory.empty(), outcome);
     } else {
       NarrowPhase::solve_alone(task, batch, i, outcome);
     }
@@ -129,15 +129,14 @@ class GjkInLanes final : public NarrowPhase {
     return {places_.data(), count};
   }
 
-  // `plane_fails`: see GjkQuery.
-  void solve_serially(Task task, const PairBatch& batch, std::size_t i, bool warm, bool plane_fails,
+  void solve_serially(Task task, const PairBatch& batch, std::size_t i, bool warm,
                       Outcome& outcome) {
     const BodyPairs& pairs = batch.pairs;
     const std::uint32_t a = pairs.first[i], b = pairs.second[i];
     WarmStart start;
     if (warm) std::memcpy(&start, batch.memory[batch.memory_of[i]].bytes.data(), sizeof start);
     query_.solve(shapes_[pairs.shape_of[a]], pairs.poses[a], shapes_[pairs.shape_of[b]],
-                 pairs.poses[b], task, warm ? &start : nullptr, outcome, plane_fails);
+                 pairs.poses[b], task, warm ? &start : nullptr, outcome);
     if (warm) std::memcpy(batch.memory[batch.memory_of[i]].bytes.data(), &start, sizeof start);
   }
 

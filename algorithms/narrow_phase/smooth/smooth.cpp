@@ -138,7 +138,7 @@ class SmoothNormals final : public NarrowPhase {
       }
       return;
     }
-    query_.solve(shapes_[a], pose_a, shapes_[b], pose_b, Task::intersect, start, outcome, true);
+    query_.solve(shapes_[a], pose_a, shapes_[b], pose_b, Task::intersect, start, outcome);
   }
 
   void solve_pair(Task task, const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b,
@@ -151,7 +151,7 @@ class SmoothNormals final : public NarrowPhase {
         solve_curved(task, a, pose_a, b, pose_b, start, outcome)) {
       return;
     }
-    query_.solve(a, pose_a, b, pose_b, task, start, outcome, true);
+    query_.solve(a, pose_a, b, pose_b, task, start, outcome);
   }
 
   // Returns false if the answer is gjk's to find.

@@ -6,6 +6,26 @@
 #include "algorithms/oracle/numbers/square_root.h"
 
 namespace touchstone::oracle {
+namespace {
+
+// Adds points to the simplex until none is nearer to the origin, and returns the nearest point of it.
+// `add` adds a least point along a direction, `drop` takes the last one back.
+template <class Add, class Drop>
+RationalPoint nearest_point(std::vector<IntegerVector>& simplex, int& iterations, const Add& add,
+                            const Drop& drop) {
+  for (;;) {
+    ++iterations;
+    RationalPoint nearest = reduce_to_nearest(simplex);
+    const IntegerVector& z = nearest.numerator;
+    if (is_zero(z)) return nearest;
+    add(z);
+    if (dot(z, simplex.back()) * nearest.denominator < dot(z, z)) continue;
+    drop();
+    return nearest;
+  }
+}
+
+}  // namespace
 
 std::vector<DifferencePoint> LinearSearch::feature() const {
   std::vector<DifferencePoint> points;
@@ -67,17 +87,7 @@ LinearSearch::Passing LinearSearch::passing() const {
     simplex.push_back(seen(known.back().difference));
   };
   add(seen({1, 0, 0}));
-  RationalPoint nearest;
-  for (;;) {
-    ++iterations_;
-    nearest = reduce_to_nearest(simplex);
-    const IntegerVector& z = nearest.numerator;
-    if (is_zero(z)) break;
-    add(z);
-    if (dot(z, simplex.back()) * nearest.denominator < dot(z, z)) continue;
-    simplex.pop_back();
-    break;
-  }
+  RationalPoint nearest = nearest_point(simplex, iterations_, add, [&] { simplex.pop_back(); });
   const IntegerVector& z = nearest.numerator;
   const Integer reach = cores_.radius() * square * nearest.denominator;
   if (dot(z, z) > reach * reach) return {{}, z};
@@ -97,17 +107,12 @@ LinearSearch::Passing LinearSearch::passing() const {
 
 void LinearSearch::find_nearest() {
   if (simplex_.empty()) add({1, 0, 0});
-  for (;;) {
-    ++iterations_;
-    nearest_ = reduce_to_nearest(simplex_);
-    const IntegerVector& z = nearest_.numerator;
-    if (is_zero(z)) return;
-    add(z);
-    if (dot(z, simplex_.back()) * nearest_.denominator < dot(z, z)) continue;
-    simplex_.pop_back();
-    known_.pop_back();
-    return;
-  }
+  nearest_ = nearest_point(
+      simplex_, iterations_, [&](const IntegerVector& n) { add(n); },
+      [&] {
+        simplex_.pop_back();
+        known_.pop_back();
+      });
 }
 
 void LinearSearch::add(const IntegerVector& n) {

@@ -16,10 +16,10 @@ class Conditions {
   Conditions(const MovingFeatures& features, const IntegerPolynomials& given)
       : features_(features), given_(given), volume_(polynomial_of(given.volume)) {}
 
-  const Polynomial& volume() const { return volume_; }
+  const Cubic& volume() const { return volume_; }
 
   // An area with the sign of its vertex's side.
-  Polynomial area(std::size_t vertex, std::size_t axis) const {
+  Cubic area(std::size_t vertex, std::size_t axis) const {
     std::array<Integer, 3> area;
     for (std::size_t c = 0; c < 3; ++c) {
       area[c] = features_.side(vertex) * given_.areas[vertex][c][axis];
@@ -28,12 +28,12 @@ class Conditions {
   }
 
   // The differences of coordinates: a vertex of the first feature less one of the second.
-  std::vector<Polynomial> differences(std::size_t axis) const {
+  std::vector<Cubic> differences(std::size_t axis) const {
     const MovingEdges<Integer> edges = integer_edges(features_, grid_of(features_));
     const auto place = [&](std::size_t time, std::size_t vertex) {
       return vertex == 0 ? Integer(0) : edges.at[time][vertex - 1][axis];
     };
-    std::vector<Polynomial> list;
+    std::vector<Cubic> list;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
         if (features_.side(i) < 0 || features_.side(j) > 0) continue;
@@ -59,7 +59,7 @@ class Conditions {
   }
 
   // The volume is zero at this time.
-  bool share_a_point(Root& time) const {
+  bool share_a_point(ContactTime& time) const {
     for (const std::size_t axis : axes()) {
       int seen = 0;
       for (std::size_t i = 0; i < 4; ++i) {
@@ -73,7 +73,7 @@ class Conditions {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       int seen = 0;
       bool meet = false;
-      for (const Polynomial& difference : differences(axis)) {
+      for (const Cubic& difference : differences(axis)) {
         const int sign = time.sign_of(difference);
         meet = meet || sign == 0 || seen * sign < 0;
         seen = sign;
@@ -86,18 +86,18 @@ class Conditions {
  private:
   const MovingFeatures& features_;
   const IntegerPolynomials& given_;
-  Polynomial volume_;
+  Cubic volume_;
 };
 
 // The times at which a contact can begin. If the volume is not always zero, its roots. Otherwise
 // contact depends on the signs of the other polynomials, which change at their roots alone; as the
 // times of contact are a closed set, the first is 0 or such a root.
-std::vector<Root> candidates(const Conditions& conditions) {
+std::vector<ContactTime> candidates(const Conditions& conditions) {
   if (!conditions.volume().is_zero()) return roots_of(conditions.volume());
-  std::vector<Root> times = {Root(Cell{0, 0, true})};
-  const auto add = [&](const Polynomial& p) {
+  std::vector<ContactTime> times = {ContactTime(Cell{0, 0, true})};
+  const auto add = [&](const Cubic& p) {
     if (p.is_zero()) return;
-    for (const Root& root : roots_of(p)) times.push_back(root);
+    for (const ContactTime& root : roots_of(p)) times.push_back(root);
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < 4; ++i) add(conditions.area(i, axis));
@@ -114,15 +114,16 @@ std::vector<Root> candidates(const Conditions& conditions) {
 
 }  // namespace
 
-std::optional<Root> first_contact(const MovingFeatures& features, const IntegerPolynomials& given) {
+std::optional<ContactTime> first_contact(const MovingFeatures& features,
+                                         const IntegerPolynomials& given) {
   const Conditions conditions(features, given);
-  for (Root& time : candidates(conditions)) {
+  for (ContactTime& time : candidates(conditions)) {
     if (conditions.share_a_point(time)) return time;
   }
   return {};
 }
 
-std::optional<Root> first_contact(const MovingFeatures& features) {
+std::optional<ContactTime> first_contact(const MovingFeatures& features) {
   return first_contact(features, contact_polynomials(integer_edges(features, grid_of(features))));
 }
 

@@ -9,11 +9,14 @@
 
 namespace touchstone::oracle::ccd {
 
+using ContactTime = Root<3>;
+
 // The first time in [0, 1] at which the closed features share a point; nothing if there is none.
 // There is no tolerance and no rounding; times of two queries are ordered by `compare`. 5 to 50 us.
-std::optional<Root> first_contact(const MovingFeatures& features);
+std::optional<ContactTime> first_contact(const MovingFeatures& features);
 // For a caller that has the polynomials.
-std::optional<Root> first_contact(const MovingFeatures& features, const IntegerPolynomials& given);
+std::optional<ContactTime> first_contact(const MovingFeatures& features,
+                                         const IntegerPolynomials& given);
 
 // The same answer, with the time between two doubles that are at most 2^-40 apart; they are equal
 // where the time is 0 or 1. The filters may be left out, which tests do.

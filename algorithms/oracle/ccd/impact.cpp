@@ -13,24 +13,6 @@ namespace {
 
 constexpr double roundoff = 0x1p-53;
 
-// True if one feature is above the other along an axis at both times, and so at all times, since
-// differences of coordinates are linear in time. No rounding.
-bool is_above_along_an_axis(const MovingFeatures& features) {
-  std::array<Eigen::Array<bool, 3, 1>, 2> apart = {Eigen::Array<bool, 3, 1>::Constant(true),
-                                                   Eigen::Array<bool, 3, 1>::Constant(true)};
-  for (const std::array<Vec3d, 4>* x : {&features.start, &features.end}) {
-    const auto& [p, q, r, s] = *x;
-    const bool has_edge = features.first_count == 2;
-    const Vec3d first_low = has_edge ? p.cwiseMin(q) : p, first_high = has_edge ? p.cwiseMax(q) : p;
-    const Vec3d rest_low = r.cwiseMin(s), rest_high = r.cwiseMax(s);
-    const Vec3d second_low = has_edge ? rest_low : q.cwiseMin(rest_low);
-    const Vec3d second_high = has_edge ? rest_high : q.cwiseMax(rest_high);
-    apart[0] = apart[0] && first_low.array() > second_high.array();
-    apart[1] = apart[1] && second_low.array() > first_high.array();
-  }
-  return apart[0].any() || apart[1].any();
-}
-
 // The axis along which the areas are greatest in the middle of the time.
 template <class Area>
 std::size_t widest_axis(const std::array<std::array<Triple<Area>, 3>, 4>& areas) {
@@ -152,9 +134,9 @@ std::optional<Impact> by_exact_coefficients(const MovingFeatures& features,
   return *shared ? Impact{true, 1, 1} : Impact{};
 }
 
-Impact bounded(std::optional<Root> time) {
+Impact bounded(std::optional<ContactTime> time) {
   if (!time) return {};
-  const Root::Bounds bounds = time->bounds();
+  const TimeBounds bounds = time->bounds();
   return {true, bounds.low, bounds.high};
 }
 
@@ -169,7 +151,7 @@ Impact by_fixed_integers(const MovingFeatures& features, const Grid& grid) {
 
 Impact impact_of(const MovingFeatures& features, Filters filters) {
   if (filters == Filters::all) {
-    if (is_above_along_an_axis(features)) return {};
+    if (are_apart_along_an_axis(features, 0)) return {};
     const IntervalProof proof = prove_over_intervals(in_doubles(features));
     if (proof.proven == Proven::miss) return {};
     if (proof.proven == Proven::hit) return {true, proof.free_before, proof.contact_by};

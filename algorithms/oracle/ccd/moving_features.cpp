@@ -102,4 +102,22 @@ MovingEdges<double> rounded_edges(const MovingFeatures& features) {
   return edges_of<double>(features, [&](double x) { return x * half * rest; });
 }
 
+bool are_apart_along_an_axis(const MovingFeatures& features, double separation) {
+  // A difference of doubles is rounded once.
+  const double least = separation * (1 + 0x1p-50);
+  std::array<Eigen::Array<bool, 3, 1>, 2> apart = {Eigen::Array<bool, 3, 1>::Constant(true),
+                                                   Eigen::Array<bool, 3, 1>::Constant(true)};
+  for (const std::array<Vec3d, 4>* x : {&features.start, &features.end}) {
+    const auto& [p, q, r, s] = *x;
+    const bool has_edge = features.first_count == 2;
+    const Vec3d first_low = has_edge ? p.cwiseMin(q) : p, first_high = has_edge ? p.cwiseMax(q) : p;
+    const Vec3d rest_low = r.cwiseMin(s), rest_high = r.cwiseMax(s);
+    const Vec3d second_low = has_edge ? rest_low : q.cwiseMin(rest_low);
+    const Vec3d second_high = has_edge ? rest_high : q.cwiseMax(rest_high);
+    apart[0] = apart[0] && first_low.array() - second_high.array() > least;
+    apart[1] = apart[1] && second_low.array() - first_high.array() > least;
+  }
+  return apart[0].any() || apart[1].any();
+}
+
 }  // namespace touchstone::oracle::ccd

@@ -42,4 +42,8 @@ MovingEdges<Integer> integer_edges(const MovingFeatures& features, const Grid& g
 // Each number has a relative error of at most 2^-53, or an error of 2^-1073.
 MovingEdges<double> rounded_edges(const MovingFeatures& features);
 
+// True if one feature is further above the other along an axis than the separation at both times, and
+// so at all times, since differences of coordinates are linear in time.
+bool are_apart_along_an_axis(const MovingFeatures& features, double separation);
+
 }  // namespace touchstone::oracle::ccd

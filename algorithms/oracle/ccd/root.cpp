@@ -11,7 +11,8 @@
 namespace touchstone::oracle::ccd {
 namespace {
 
-void add_roots(const Polynomial& p, const Cell& cell, std::vector<Root>& roots) {
+template <int most>
+void add_roots(const Polynomial<most>& p, const Cell& cell, std::vector<Root<most>>& roots) {
   const int changes = restricted(p, cell).changes();
   if (changes == 0) return;
   if (changes == 1) {
@@ -41,11 +42,12 @@ Ends ends_of(const Cell& cell, int power) {
 
 }  // namespace
 
-std::vector<Root> roots_of(const Polynomial& p) {
-  std::vector<Root> roots;
+template <int most>
+std::vector<Root<most>> roots_of(const Polynomial<most>& p) {
+  std::vector<Root<most>> roots;
   // Multiple roots outside of the interval do no harm, and one change of sign is a simple root.
   const bool is_simple = restricted(p, Cell{}).changes() <= 1;
-  const Polynomial simple = is_simple ? p : square_free(p);
+  const Polynomial<most> simple = is_simple ? p : square_free(p);
   const Cell zero{0, 0, true}, one{1, 0, true};
   if (sign_at(simple, zero) == 0) roots.emplace_back(zero);
   add_roots(simple, Cell{}, roots);
@@ -56,7 +58,8 @@ std::vector<Root> roots_of(const Polynomial& p) {
 // Quadratic interval refinement (Abbott, "Quadratic Interval Refinement for Real Roots", 2006): the
 // chord says which of many small cells has the root, and signs at its ends prove it. Where they do
 // not, the cell is halved.
-void Root::refine() {
+template <int most>
+void Root<most>::refine() {
   if (cell_.is_point) return;
   const Cell next{end_of(cell_), cell_.power, true};
   const Integer begin = value_at(polynomial_, cell_), end = value_at(polynomial_, next);
@@ -97,15 +100,17 @@ void Root::refine() {
   }
 }
 
-bool Root::is_root_of(const Polynomial& p) const {
+template <int most>
+bool Root<most>::is_root_of(const Polynomial<most>& p) const {
   if (cell_.is_point) return sign_at(p, cell_) == 0;
   // The divisor has no other root in the cell than this one, and if it has this one, once: the number
   // of changes is even or odd with the number of roots.
-  const Polynomial shared = common_divisor(polynomial_, p);
+  const Polynomial<most> shared = common_divisor(polynomial_, p);
   return shared.degree >= 1 && restricted(shared, cell_).changes() % 2 == 1;
 }
 
-int Root::sign_of(const Polynomial& p) {
+template <int most>
+int Root<most>::sign_of(const Polynomial<most>& p) {
   if (p.is_zero()) return 0;
   // The divisor costs as much as some refinements.
   constexpr int narrow_enough = 40;
@@ -121,10 +126,11 @@ int Root::sign_of(const Polynomial& p) {
   }
 }
 
-Root::Bounds Root::bounds() {
+template <int most>
+TimeBounds Root<most>::bounds() {
   for (;;) {
-    const Bounds bounds = {round_down(cell_.numerator, -cell_.power),
-                           round_up(end_of(cell_), -cell_.power)};
+    const TimeBounds bounds = {round_down(cell_.numerator, -cell_.power),
+                               round_up(end_of(cell_), -cell_.power)};
     const bool is_narrow =
         std::nextafter(bounds.low, std::numeric_limits<double>::infinity()) >= bounds.high;
     if (cell_.is_point || is_narrow || cell_.power > 1060) return bounds;
@@ -132,7 +138,8 @@ Root::Bounds Root::bounds() {
   }
 }
 
-std::strong_ordering compare(Root& x, Root& y) {
+template <int most>
+std::strong_ordering compare(Root<most>& x, Root<most>& y) {
   bool is_known_to_differ = false;
   for (;;) {
     const int power = std::max(x.cell_.power, y.cell_.power);
@@ -145,8 +152,8 @@ std::strong_ordering compare(Root& x, Root& y) {
     if (!is_known_to_differ) {
       const bool x_is_inner =
           x.cell_.is_point || (!y.cell_.is_point && x.cell_.power > y.cell_.power);
-      Root& inner = x_is_inner ? x : y;
-      const Root& outer = x_is_inner ? y : x;
+      Root<most>& inner = x_is_inner ? x : y;
+      const Root<most>& outer = x_is_inner ? y : x;
       if (inner.is_root_of(outer.polynomial_)) return std::strong_ordering::equal;
       is_known_to_differ = true;
     }
@@ -154,5 +161,12 @@ std::strong_ordering compare(Root& x, Root& y) {
     y.refine();
   }
 }
+
+template class Root<3>;
+template class Root<6>;
+template std::strong_ordering compare(Root<3>&, Root<3>&);
+template std::strong_ordering compare(Root<6>&, Root<6>&);
+template std::vector<Root<3>> roots_of(const Cubic&);
+template std::vector<Root<6>> roots_of(const Sextic&);
 
 }  // namespace touchstone::oracle::ccd

@@ -150,14 +150,5 @@ TEST(ExactCcd, OrdersTimesThatDoublesCannotTellApart) {
   EXPECT_TRUE(compare(whole, half) > 0);
 }
 
-TEST(ExactCcd, SaysThatItHasNoSeparation) {
-  const auto algorithm = find_ccd("exact")->make({.separation = 0.1});
-  const CcdQuery query{};
-  CcdOutcome outcome;
-  algorithm->solve(FeaturePair::edge_edge, {&query, 1}, {&outcome, 1});
-  EXPECT_EQ(outcome.status, Status::unsupported);
-  EXPECT_EQ(outcome.answer, CcdAnswer::unknown);
-}
-
 }  // namespace
 }  // namespace touchstone

@@ -169,8 +169,8 @@ TEST_F(CcdCommand, SeparationIsPassedOn) {
   ASSERT_EQ(ran.status, 0) << ran.text;
   const auto rows = read_rows(out(), ccd_columns);
   EXPECT_NEAR(std::stod(rows[0][3]), 0.25, 1e-5);
-  EXPECT_EQ(rows[1][4], "unsupported");
-  EXPECT_EQ(rows[1][2], "unknown");
+  EXPECT_EQ(rows[1][4], "ok");
+  EXPECT_EQ(std::stod(rows[1][3]), 0.25);
 }
 
 TEST_F(CcdCommand, RefusesBadInputWithItsPlace) {
