@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 3> concave_tasks = {"intersect", "distanc
 constexpr std::array<std::string_view, 2> ray_tasks = {"closest", "any"};
 constexpr std::array<std::string_view, 2> point_tasks = {"closest", "side"};
 constexpr std::array<std::string_view, 2> cast_tasks = {"counts", "approach"};
-constexpr std::array<std::string_view, 1> ccd_tasks = {"contact"};
+constexpr std::array<std::string_view, 2> ccd_tasks = {"contact", "separation"};
 
 std::span<const std::string_view> tasks_of(CaseKind kind) {
   switch (kind) {
@@ -50,8 +50,8 @@ bool offers(const CastEntry* entry, Precision scalar, std::uint8_t task) {
   settings.start = static_cast<StartContact>(task);
   return touchstone::offers(*entry, settings);
 }
-bool offers(const CcdEntry* /*entry*/, Precision scalar, std::uint8_t /*task*/) {
-  return scalar == Precision::float64;
+bool offers(const CcdEntry* entry, Precision scalar, std::uint8_t task) {
+  return scalar == Precision::float64 && (task == 0 || entry->separations);
 }
 
 template <class Entry>

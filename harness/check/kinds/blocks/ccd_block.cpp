@@ -1,15 +1,11 @@
 // Moving vertices, faces and edges.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
-#include "algorithms/oracle/ccd/first_contact.h"
+#include "algorithms/oracle/ccd/first_within.h"
 #include "algorithms/oracle/oracle.h"
-#include "algorithms/oracle/solid.h"
-#include "harness/check/kinds/blocks/exact_forms.h"
+#include "harness/check/kinds/blocks/ccd_forms.h"
 #include "harness/check/kinds/blocks/grading.h"
 #include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/ccd_families.h"
@@ -18,7 +14,7 @@
 namespace touchstone::check {
 namespace {
 
-// Queries of one call; a crash costs them all. They have one scale and one tolerance.
+// Queries of one call; a crash costs them all. They have one scale, and what they are asked.
 constexpr std::uint64_t queries_of_a_call = 50;
 
 struct CallAnswer {
@@ -26,33 +22,18 @@ struct CallAnswer {
   std::array<CcdOutcome, queries_of_a_call> outcomes;
 };
 
+// Lengths in metres.
+struct Lengths {
+  double tolerance = 0, separation = 0;
+
+  bool operator==(const Lengths&) const = default;
+};
+
 struct Call {
-  double tolerance = 0;  // metres
+  Lengths lengths;
   std::vector<std::size_t> places;
   std::vector<CcdQuery> queries;
 };
-
-using Vertices = std::array<Vec3d, 4>;
-
-CcdQuery with_order(const CcdQuery& query, const std::array<std::size_t, 4>& order) {
-  CcdQuery other;
-  for (std::size_t k = 0; k < 4; ++k) {
-    other.start[k] = query.start[order[k]];
-    other.end[k] = query.end[order[k]];
-  }
-  return other;
-}
-
-// The vertices halfway, if they are exact.
-std::optional<Vertices> middle_of(const CcdQuery& query) {
-  Vertices middle;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto sum = exact_sum(query.start[k], query.end[k]);
-    if (!sum) return std::nullopt;
-    middle[k] = *sum / 2;
-  }
-  return middle;
-}
 
 class CcdBlock final : public CaseBlock {
  public:
@@ -75,8 +56,10 @@ class CcdBlock final : public CaseBlock {
     std::vector<Call> calls;
     for (std::size_t i = 0; i < queries_.size(); ++i) {
       if (!is_asked(form, range_.first + i)) continue;
-      const std::optional<CcdQuery> query = in_form(i, form);
-      if (query) add(calls, i, *query, form);
+      const std::uint64_t index = range_.first + i;
+      const std::optional<CcdQuery> query = query_in_form(
+          queries_[i], first_count(), size_of(index).scale, FormNumbers(range_.seed, index), form);
+      if (query) add(calls, contestant, i, *query, form);
     }
     const std::vector<CcdOutcome> outcomes = solve(entry, calls, time_limit);
     std::size_t k = 0;
@@ -93,16 +76,18 @@ class CcdBlock final : public CaseBlock {
                     const std::filesystem::path& stem) const override {
     const std::string file = stem.string() + ".csv";
     std::string text;
-    const bool is_hit = impact(place).is_hit;
-    for (const Vertices* vertices : {&queries_[place].start, &queries_[place].end}) {
+    const Lengths lengths = lengths_of(contestant, place);
+    const bool is_hit = impact(place, lengths).is_hit;
+    for (const std::array<Vec3d, 4>* vertices : {&queries_[place].start, &queries_[place].end}) {
       for (const Vec3d& v : *vertices) {
         text += fmt::format("{},{},{},{}\n", v.x(), v.y(), v.z(), is_hit ? 1 : 0);
       }
     }
     files::write_text(file, text);
     return fmt::format(
-        "touchstone ccd {} --kind {} --ccd exact,{} --tolerance {} --out answers.csv", file,
-        to_string(family_.pair), contestant.info().name, size_of(range_.first + place).tolerance);
+        "touchstone ccd {} --kind {} --ccd exact,{} --tolerance {}{} --out answers.csv", file,
+        to_string(family_.pair), contestant.info().name, lengths.tolerance,
+        lengths.separation > 0 ? fmt::format(" --separation {}", lengths.separation) : "");
   }
 
  private:
@@ -127,25 +112,39 @@ class CcdBlock final : public CaseBlock {
   }
 
   int first_count() const { return family_.pair == FeaturePair::vertex_face ? 1 : 2; }
-  oracle::ccd::Impact impact(std::size_t i) const {
-    return oracle::ccd::impact_of({first_count(), queries_[i].start, queries_[i].end});
+  // What a query is asked as it was drawn.
+  Lengths lengths_of(const Contestant& contestant, std::size_t i) const {
+    constexpr std::array<double, 5> separations = {0x1p-3, 1e-3, 0x1p-20, 1, 1e-9};
+    const std::uint64_t index = range_.first + i;
+    const Size size = size_of(index);
+    if (contestant.task == 0) return {size.tolerance, 0};
+    return {size.tolerance,
+            size.scale * separations[index / queries_of_a_call % separations.size()]};
   }
-  const oracle::ccd::Impact& truth(std::size_t i) {
-    if (truths_.empty()) {
-      for (std::size_t k = 0; k < queries_.size(); ++k) truths_.push_back(impact(k));
-    }
-    return truths_[i];
+  oracle::ccd::Impact impact(std::size_t i, const Lengths& lengths) const {
+    const oracle::ccd::MovingFeatures features{first_count(), queries_[i].start, queries_[i].end};
+    return lengths.separation > 0 ? oracle::ccd::impact_within(features, lengths.separation)
+                                  : oracle::ccd::impact_of(features);
+  }
+  const oracle::ccd::Impact& truth(const Contestant& contestant, std::size_t i) {
+    std::vector<oracle::ccd::Impact>& truths = truths_[contestant.task];
+    for (std::size_t k = truths.size(); k < queries_.size(); ++k)
+      truths.push_back(impact(k, lengths_of(contestant, k)));
+    return truths[i];
   }
 
-  void add(std::vector<Call>& calls, std::size_t i, const CcdQuery& query, CaseForm form) const {
-    const std::uint64_t index = range_.first + i;
-    double tolerance = size_of(index).tolerance;
+  void add(std::vector<Call>& calls, const Contestant& contestant, std::size_t i,
+           const CcdQuery& query, CaseForm form) const {
+    Lengths lengths = lengths_of(contestant, i);
     // Each has a scale of its own.
     const bool is_scaled = form == CaseForm::scaled;
-    if (is_scaled) tolerance *= FormNumbers(range_.seed, index).scale;
-    const bool is_next = calls.empty() || is_scaled || calls.back().tolerance != tolerance ||
+    if (is_scaled) {
+      const double scale = FormNumbers(range_.seed, range_.first + i).scale;
+      lengths = {scale * lengths.tolerance, scale * lengths.separation};
+    }
+    const bool is_next = calls.empty() || is_scaled || calls.back().lengths != lengths ||
                          calls.back().places.size() == queries_of_a_call;
-    if (is_next) calls.push_back({tolerance, {}, {}});
+    if (is_next) calls.push_back({lengths, {}, {}});
     calls.back().places.push_back(i);
     calls.back().queries.push_back(query);
   }
@@ -161,7 +160,8 @@ class CcdBlock final : public CaseBlock {
             CallAnswer answer;
             answer.status = Status::ok;
             const std::size_t count = calls[k].queries.size();
-            entry.make({.tolerance = calls[k].tolerance})
+            const Lengths& lengths = calls[k].lengths;
+            entry.make({.tolerance = lengths.tolerance, .separation = lengths.separation})
                 ->solve(family_.pair, calls[k].queries, std::span(answer.outcomes).first(count));
             return answer;
           };
@@ -176,33 +176,6 @@ class CcdBlock final : public CaseBlock {
     return outcomes;
   }
 
-  std::optional<CcdQuery> in_form(std::size_t i, CaseForm form) const {
-    const FormNumbers numbers(range_.seed, range_.first + i);
-    const CcdQuery& query = queries_[i];
-    switch (form) {
-      case CaseForm::as_drawn: return query;
-      case CaseForm::swapped:
-        return with_order(query, first_count() == 1 ? std::array<std::size_t, 4>{0, 2, 3, 1}
-                                                    : std::array<std::size_t, 4>{2, 3, 1, 0});
-      case CaseForm::scaled: return families::changed(query, numbers.scale);
-      case CaseForm::moved: {
-        CcdQuery moved;
-        for (std::size_t k = 0; k < 4; ++k) {
-          const Vec3d shift = size_of(range_.first + i).scale * numbers.shift;
-          const auto start = exact_sum(numbers.turn(query.start[k]), shift);
-          const auto end = exact_sum(numbers.turn(query.end[k]), shift);
-          if (!start || !end) return std::nullopt;
-          moved.start[k] = *start;
-          moved.end[k] = *end;
-        }
-        return moved;
-      }
-      case CaseForm::reversed: return CcdQuery{query.end, query.start};
-      case CaseForm::split: break;
-    }
-    return std::nullopt;
-  }
-
   // A contact is in the first half or in the second.
   std::vector<GradedCase> ask_halves(const Contestant& contestant, const CcdEntry& entry,
                                      double time_limit) {
@@ -210,10 +183,10 @@ class CcdBlock final : public CaseBlock {
     std::array<std::vector<Call>, 2> calls;
     for (std::size_t i = 0; i < queries_.size(); ++i) {
       if (!is_asked(CaseForm::split, range_.first + i)) continue;
-      const auto middle = middle_of(queries_[i]);
+      const auto middle = vertices_halfway(queries_[i]);
       if (!middle) continue;
-      add(calls[0], i, {queries_[i].start, *middle}, CaseForm::split);
-      add(calls[1], i, {*middle, queries_[i].end}, CaseForm::split);
+      add(calls[0], contestant, i, {queries_[i].start, *middle}, CaseForm::split);
+      add(calls[1], contestant, i, {*middle, queries_[i].end}, CaseForm::split);
     }
     const auto first = solve(entry, calls[0], time_limit);
     const auto second = solve(entry, calls[1], time_limit);
@@ -233,34 +206,32 @@ class CcdBlock final : public CaseBlock {
     return grades;
   }
 
-  // True if the features are further apart at the time than the tolerance, and rounding.
-  bool is_apart(std::size_t i, double time, double tolerance) {
+  // True if the features are further apart at the time than separation and tolerance.
+  bool is_apart(std::size_t i, double time, const Lengths& lengths) {
     if (!(time >= 0 && time <= 1)) return true;
-    std::array<std::vector<Vec3d>, 2> features;
-    double reach = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Vec3d& start = queries_[i].start[k];
-      const Vec3d& end = queries_[i].end[k];
-      features[k < static_cast<std::size_t>(first_count()) ? 0 : 1].push_back((1 - time) * start +
-                                                                              time * end);
-      reach = std::max({reach, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
+    return are_further_apart(queries_[i], first_count(), time,
+                             lengths.separation + 1.01 * lengths.tolerance, oracle_);
+  }
+
+  // True if the outcome's times are not those of the contact.
+  bool is_off(const Contestant& contestant, std::size_t i, const CcdOutcome& outcome,
+              bool is_backward) {
+    constexpr double late = 1e-6, apart = 0x1p-39;  // of the time
+    const oracle::ccd::Impact& exact = truth(contestant, i);
+    switch (contestant.info().origin) {
+      case Origin::peer: return !is_backward && outcome.toi > exact.contact_by + late;
+      // It has no tolerance, and bounds that are up to 2^-40 apart.
+      case Origin::oracle:
+        return !is_backward && (outcome.free_before > exact.contact_by + apart ||
+                                outcome.contact_by < exact.free_before - apart);
+      case Origin::ours: break;
     }
-    const auto solid = [](std::vector<Vec3d> vertices) {
-      Hull hull;
-      hull.vertices = std::move(vertices);
-      Shape shape;
-      shape.kind = ShapeKind::hull;
-      shape.hull = std::make_shared<const Hull>(std::move(hull));
-      return oracle::Solid(shape);
-    };
-    const oracle::Solid a = solid(features[0]), b = solid(features[1]);
-    const oracle::Measure measure = oracle_.measure({a, Pose{}}, {b, Pose{}});
-    return measure.lower > 1.01 * tolerance + 64 * 0x1p-52 * reach;
+    return !is_backward && is_apart(i, outcome.contact_by, lengths_of(contestant, i));
   }
 
   GradedCase grade(const Contestant& contestant, std::size_t i, const CcdOutcome& outcome,
                    bool is_backward) {
-    const oracle::ccd::Impact& exact = truth(i);
+    const oracle::ccd::Impact& exact = truth(contestant, i);
     const auto with = [&](CaseGrade grade) { return GradedCase{grade, exact.is_hit}; };
     const bool is_unknown = outcome.answer == CcdAnswer::unknown;
     const bool is_proven = contestant.info().origin != Origin::peer;
@@ -273,18 +244,15 @@ class CcdBlock final : public CaseBlock {
       return with(exact.is_hit ? CaseGrade::missed : CaseGrade::right);
     }
     const double by = std::isnan(outcome.contact_by) ? outcome.toi : outcome.contact_by;
-    const double tolerance = size_of(range_.first + i).tolerance;
-    const bool is_apart_then = is_apart(i, is_backward ? 1 - by : by, tolerance);
+    const bool is_apart_then = is_apart(i, is_backward ? 1 - by : by, lengths_of(contestant, i));
     if (!exact.is_hit) return with(is_apart_then ? CaseGrade::false_hit : CaseGrade::near);
-    constexpr double late = 1e-6;  // of the time, in a peer that has no bounds
-    const bool is_off = is_proven ? is_apart_then : outcome.toi > exact.contact_by + late;
-    return with(is_off && !is_backward ? CaseGrade::wrong : CaseGrade::right);
+    return with(is_off(contestant, i, outcome, is_backward) ? CaseGrade::wrong : CaseGrade::right);
   }
 
   const families::CcdFamily& family_;
   BlockRange range_;
   std::vector<CcdQuery> queries_;
-  std::vector<oracle::ccd::Impact> truths_;
+  std::array<std::vector<oracle::ccd::Impact>, 2> truths_;  // by the contestant's task
   oracle::Oracle oracle_;
 };
 
