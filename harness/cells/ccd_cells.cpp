@@ -121,14 +121,18 @@ Grade grade(const CcdInput& input, std::span<const CcdOutcome> outcomes) {
   return grade;
 }
 
-Cell make_ccd_cell(const std::shared_ptr<CcdInput>& input, double tolerance,
+Cell make_ccd_cell(const std::shared_ptr<CcdInput>& input, const CcdSettings& settings,
                    const std::vector<const CcdEntry*>& entries) {
   input->exact.resize(input->queries.size());
-  find_ccd("exact")->make({})->solve(input->pair, input->queries, input->exact);
+  find_ccd("exact")->make(settings)->solve(input->pair, input->queries, input->exact);
   Cell cell;
   cell.queries = cell.graded = std::ssize(input->queries);
   for (const CcdEntry* entry : entries) {
-    const std::shared_ptr<Ccd> solver = entry->make({.tolerance = tolerance});
+    if (settings.separation > 0 && !entry->separations) {
+      cell.left_out.push_back({entry->info.name, entry->info.origin});
+      continue;
+    }
+    const std::shared_ptr<Ccd> solver = entry->make(settings);
     const auto outcomes = std::make_shared<std::vector<CcdOutcome>>(input->queries.size());
     Contestant made;
     made.name = entry->info.name;
@@ -169,32 +173,39 @@ std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesyste
   const auto count = static_cast<std::size_t>(table.integer("queries", 16, 10'000'000, 4096));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const double tolerance = table.number("tolerance", files::positive, 1e-6);
+  std::vector<double> separations =
+      listed_numbers(table, "separations", 0, 1e100, "distances in metres");
+  if (separations.empty()) separations.push_back(0);
   const std::vector<std::size_t> families = choices(table, "families", family_names);
   const auto entries = selected(table, ccds(), "ccd");
   std::vector<PlannedCell> cells;
+  const auto add = [&](const std::string& group, const std::string& name, const auto& make_input) {
+    for (const double separation : separations) {
+      const CcdSettings settings = {.tolerance = tolerance, .separation = separation};
+      cells.push_back({group,
+                       separation > 0 ? fmt::format("{}, within {}", name, separation) : name,
+                       [=] { return make_ccd_cell(make_input(), settings, entries); }});
+    }
+  };
   for (const FeaturePair pair : feature_pairs) {
     const std::string group(to_string(pair));
     for (const std::size_t family : families) {
-      cells.push_back({group, std::string(family_names[family]), [=] {
-                         const auto input = std::make_shared<CcdInput>();
-                         input->pair = pair;
-                         base::Random random(seed, family << 1 | static_cast<std::size_t>(pair));
-                         for (std::size_t i = 0; i < count; ++i)
-                           input->queries.push_back(
-                               draw(pair, static_cast<Family>(family), random));
-                         return make_ccd_cell(input, tolerance, entries);
-                       }});
+      add(group, std::string(family_names[family]), [=] {
+        const auto input = std::make_shared<CcdInput>();
+        input->pair = pair;
+        base::Random random(seed, family << 1 | static_cast<std::size_t>(pair));
+        for (std::size_t i = 0; i < count; ++i)
+          input->queries.push_back(draw(pair, static_cast<Family>(family), random));
+        return input;
+      });
     }
     const std::string key = pair == FeaturePair::vertex_face ? "vertex_face" : "edge_edge";
     const std::vector<std::string> files = table.texts(key, {});
     const std::vector<std::string> names = short_names(files);
     for (std::size_t i = 0; i < files.size(); ++i) {
       try {
-        const auto input = std::make_shared<CcdInput>();
-        input->pair = pair;
-        input->queries = files::read_ccd_queries(home / files[i]).queries;
-        cells.push_back(
-            {group, names[i], [=] { return make_ccd_cell(input, tolerance, entries); }});
+        CcdInput input{pair, files::read_ccd_queries(home / files[i]).queries, {}};
+        add(group, names[i], [=] { return std::make_shared<CcdInput>(input); });
       } catch (const base::InputError& error) {
         table.fail(key, error.what());
       }

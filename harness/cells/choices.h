@@ -1,9 +1,12 @@
 // Keys that kinds of cells share.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -26,6 +29,19 @@ std::vector<std::size_t> choices(files::TomlTable& table, std::string_view key,
     std::iota(chosen.begin(), chosen.end(), std::size_t{0});
   }
   return chosen;
+}
+
+// The numbers that the key lists, from `low` to `high`; none without the key.
+inline std::vector<double> listed_numbers(files::TomlTable& table, std::string_view key, double low,
+                                          double high, std::string_view what) {
+  std::vector<double> numbers;
+  for (const toml::node* node : table.elements(key)) {
+    const std::optional<double> number = node->value<double>();
+    if (!number || !(*number >= low && *number <= high))
+      table.fail(key, fmt::format("expected {}, {} to {}", what, low, high));
+    numbers.push_back(*number);
+  }
+  return numbers;
 }
 
 // The entries that the key `algorithms` names; ours and the peers' without it.

@@ -231,12 +231,8 @@ void check_source(files::TomlTable& table, const LoopSource& source) {
 
 std::vector<LoopSource> read_sources(files::TomlTable& table, const std::filesystem::path& home) {
   std::vector<std::optional<double>> shares;
-  for (const toml::node* node : table.elements("moving")) {
-    const std::optional<double> share = node->value<double>();
-    if (!share || !(*share >= 0 && *share <= 1))
-      table.fail("moving", "expected shares of the bodies, 0 to 1");
-    shares.push_back(share);
-  }
+  for (const double share : listed_numbers(table, "moving", 0, 1, "shares of the bodies"))
+    shares.emplace_back(share);
   if (shares.empty()) shares.emplace_back();
   const auto frames = static_cast<int>(table.integer("frames", 2, 1'000'000, -1));
   const std::vector<std::int64_t> counts = table.integers("counts", 1, 100'000'000, -1);

@@ -241,6 +241,16 @@ TEST(Cells, WrongFilesAreRefusedWithTheirLine) {
               HasSubstr("nothing.csv"));
 }
 
+TEST(Cells, OfFeaturesWithASeparation) {
+  const TemporaryFolder folder;
+  const auto request = request_of(
+      folder, "kind = \"ccd\"\nqueries = 32\nfamilies = \"crossing\"\nseparations = [0, 0.5]\n");
+  ASSERT_EQ(request.cells.size(), 4U);
+  EXPECT_EQ(request.cells[1].name, "crossing, within 0.5");
+  expect_sound(run(request, folder.path() / "out"), request.cells.size());
+  EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nseparations = -1\n"), HasSubstr("separations"));
+}
+
 TEST(Cells, FilesOfQueriesOfOneNameAreToldApart) {
   const TemporaryFolder folder;
   std::string query;
