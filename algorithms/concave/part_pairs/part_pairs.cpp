@@ -19,7 +19,8 @@
 //             depth first, with bounds in lanes: of boxes in both bodies' frames, and along the way of the
 //             nearest points; of their triangles those are measured whose gaps, also in lanes, leave them
 //             near (part_distance).
-//          6. measure: the narrow phase gives each pair's depth and normal. Where these are to be welded,
+//          6. measure: the narrow phase gives each pair's depth and normal; `fused` asks GJK and EPA
+//             first, and it for what they leave open (part_depths). Where these are to be welded,
 //             a normal that the mesh around does not support gives way to the face's (welding).
 // Departs: `moller` and `guigue-devillers` decide each pair of triangles in doubles, as their papers
 //          do, and are wrong where rounding is: their status is not_reported.
@@ -37,6 +38,7 @@
 #include "algorithms/concave/part_pairs/hull_separation.h"
 #include "algorithms/concave/part_pairs/interior.h"
 #include "algorithms/concave/part_pairs/mesh_pairs.h"
+#include "algorithms/concave/part_pairs/part_depths.h"
 #include "algorithms/concave/part_pairs/part_distance.h"
 #include "algorithms/concave/part_pairs/welding.h"
 #include "algorithms/concave_phase.h"
@@ -57,6 +59,7 @@ class PartPairs final : public ConcavePhase {
       mesh_pairs_ = fused_pairs(trees_);
       search_.emplace(trees_);
       hulls_.emplace();
+      depths_.emplace();
       make_mid_phase_ = settings.mid_phase;
     } else {
       mid_phase_ = settings.mid_phase();
@@ -78,6 +81,7 @@ class PartPairs final : public ConcavePhase {
       mid_phase_ = nullptr;
       search_->bind(bodies_);
       hulls_->bind(bodies_);
+      depths_->bind(bodies_);
     } else {
       fill_mid_phase();
     }
@@ -125,10 +129,12 @@ class PartPairs final : public ConcavePhase {
   bool measure(const PlacedConcave& a, const PlacedConcave& b, std::span<const IndexPair> pairs,
                std::vector<PartContact>& contacts) override {
     contacts.clear();
-    const auto outcomes = convex_pairs_.solve(Task::penetration, bodies_[a.body], a.pose,
-                                              bodies_[b.body], b.pose, pairs);
+    const std::span<const Outcome> depths =
+        depths_ ? depths_->find(a, b, pairs, convex_pairs_)
+                : convex_pairs_.solve(Task::penetration, bodies_[a.body], a.pose, bodies_[b.body],
+                                      b.pose, pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const Outcome& found = outcomes[i];
+      const Outcome& found = depths[i];
       PartContact& contact = contacts.emplace_back();
       contact.parts = pairs[i];
       contact.status = found.status;
@@ -225,6 +231,7 @@ class PartPairs final : public ConcavePhase {
   std::unique_ptr<MeshPairs> mesh_pairs_;
   std::optional<ConvexSearch> search_;   // of `fused`
   std::optional<HullSeparation> hulls_;  // of `fused`
+  std::optional<PartDepths> depths_;     // of `fused`
   ConvexPairs convex_pairs_;
   PartDistance distances_;
   std::optional<Welding> welding_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "algorithms/hull/convex_hull.h"
 #include "tests/algorithms/concave/meshes.h"
@@ -74,6 +75,47 @@ TEST(ConcaveContacts, PartAsFarAsTheirDepthSays) {
     }
   }
   EXPECT_GT(asked, 20 / one_in);
+}
+
+// `fused` asks GJK and EPA first, `part-pairs` a narrow phase that proves each depth: of parts deep in each
+// other, of parts that touch in a face, an edge or a vertex, of parts whose place is rounded, and of those
+// without bounds.
+TEST(ConcaveContacts, AreThoseThatAProofHas) {
+  reference::Random random(2);
+  const ConcaveBody torus = body_of(reference::torus(6, 4, 1, 0.3));
+  const ConcaveBody box_of_triangles = body_of(reference::box_mesh(1, 1, 1));
+  Shape ground;
+  ground.kind = ShapeKind::halfspace;
+  int deep = 0, touching = 0;
+  for (int i = 0; i < drawn(60, 10); ++i) {
+    const Pose turned = {random.rotation(), random.vector(0.3)};
+    ConcaveBody compound = body_of(reference::make_box(0.3, 0.2, 0.25), turned);
+    compound.parts.push_back({reference::make_capsule(0.2, 0.3), {}, 0});
+    compound.parts.push_back({ground, moved_by({0, 0, -0.5}), 0});
+    std::array<ConcaveBody, 2> bodies = {torus, compound};
+    Pose a = {random.rotation(), random.vector(0.5)}, b = {random.rotation(), random.vector(0.5)};
+    if (i % 3 == 1) bodies[1] = torus;
+    if (i % 3 == 2) {
+      // On a grid, beside each other or as far in.
+      const auto on_grid = [&] { return 0.5 * std::round(random.uniform(-4, 4)); };
+      bodies = {box_of_triangles, body_of(reference::make_box(1, 1, 1))};
+      a = {};
+      b = moved_by({on_grid(), on_grid(), on_grid()});
+    }
+    const Measured fused = measured("fused", bodies, a, b);
+    const Measured proven = measured("part-pairs", bodies, a, b);
+    ASSERT_EQ(fused.pairs, proven.pairs);
+    for (std::size_t k = 0; k < fused.pairs.size(); ++k) {
+      const PartContact &one = fused.contacts[k], &other = proven.contacts[k];
+      EXPECT_EQ(one.parts, other.parts);
+      EXPECT_EQ(one.status, other.status) << i << " " << k;
+      if (other.status != Status::ok) continue;
+      EXPECT_NEAR(one.depth, other.depth, 1e-9) << i << " " << k;
+      ++(other.depth > 0 ? deep : touching);
+    }
+  }
+  EXPECT_GT(deep, drawn(200, 20));
+  EXPECT_GT(touching, drawn(20, 2));
 }
 
 TEST(ConcaveContacts, OfABallOnAPlane) {
