@@ -1,9 +1,13 @@
-// Depths of pairs of parts. GJK and EPA in doubles tell most of them, with bounds that hold beyond their
-// rounding; a narrow phase that proves more takes several times as long to prepare two shapes.
+// Depths of pairs of parts. The nearest point tells that of a ball, GJK and EPA in doubles most others, with
+// bounds that hold beyond their rounding; a narrow phase that proves more takes several times as long to prepare two shapes.
 #include "algorithms/concave/part_pairs/part_depths.h"
+
+#include <algorithm>
+#include <limits>
 
 #include "algorithms/core/bounds.h"
 #include "algorithms/core/mesh/placed_box.h"
+#include "algorithms/kernels/rays/points/closest_of.h"
 
 namespace touchstone {
 
@@ -40,7 +44,8 @@ void PartDepths::place(const PlacedConcave& body, std::uint32_t part, Side& side
   side.part = part;
   const BoundBody& bound = bodies_[body.body];
   if (bound.mesh() != nullptr) {
-    side.shape = &side.triangle.prepare(bound.corners(part));
+    side.shape = nullptr;
+    side.corners = bound.corners(part);
     side.placed = {body.pose, 0};
     return;
   }
@@ -49,9 +54,52 @@ void PartDepths::place(const PlacedConcave& body, std::uint32_t part, Side& side
   side.placed = bound.place(body.pose, part, reaches_[number]);
 }
 
+// The depth of a ball under a triangle is the radius less the distance of its centre, which the nearest
+// point bounds from above, and the plane across the way to it from below.
+bool PartDepths::find_depth_of_ball(const Side& ball, const Side& triangle, Outcome& outcome) {
+  constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+  constexpr double least_part = 0x1p-20;  // of the reach: a shorter way has no direction
+  const Vec3d centre = ball.placed.pose.translation;
+  TriangleCorners corners = triangle.corners;
+  const double stretch = std::max(1.0, triangle.placed.pose.rotation.cwiseAbs().maxCoeff());
+  double reach = centre.cwiseAbs().maxCoeff();
+  for (Vec3d& corner : corners) {
+    const double along = stretch * corner.cwiseAbs().maxCoeff();
+    corner = triangle.placed.pose(corner);
+    reach = std::max({reach, along, corner.cwiseAbs().maxCoeff()});
+  }
+  const Vec3d nearest = closest_of(centre, corners);
+  const Vec3d way = centre - nearest;
+  const double distance = way.norm(), error = rounding * reach;
+  if (!(distance > least_part * reach)) return false;
+  outcome.normal = way / distance;
+  double lower = std::numeric_limits<double>::infinity();
+  for (const Vec3d& corner : corners) lower = std::min(lower, outcome.normal.dot(centre - corner));
+  const double radius = ball.shape->radius;
+  outcome.lower = lower - error - radius;
+  outcome.upper = distance + error - radius;
+  outcome.distance = distance - radius;
+  outcome.witness_a = nearest;
+  outcome.witness_b = centre - radius * outcome.normal;
+  outcome.answer = Answer::overlapping;
+  outcome.status = Status::ok;
+  return outcome.upper - outcome.lower < 4 * error && outcome.upper < -ball.placed.error;
+}
+
 bool PartDepths::find_depth(Outcome& outcome) {
-  const SupportShape<double>&a = *a_.shape, &b = *b_.shape;
   outcome = {};
+  for (const bool is_first : {true, false}) {
+    const Side &ball = is_first ? a_ : b_, &triangle = is_first ? b_ : a_;
+    if (ball.shape == nullptr || ball.shape->core != SupportCore::point) continue;
+    if (triangle.shape != nullptr || !find_depth_of_ball(ball, triangle, outcome)) continue;
+    if (is_first) outcome = swapped(outcome);
+    return true;
+  }
+  outcome = {};
+  for (Side* side : {&a_, &b_}) {
+    if (side->shape == nullptr) side->shape = &side->triangle.prepare(side->corners);
+  }
+  const SupportShape<double>&a = *a_.shape, &b = *b_.shape;
   if (a.core == SupportCore::halfspace || b.core == SupportCore::halfspace) return false;
   query_.solve(a, a_.placed.pose, b, b_.placed.pose, Task::penetration, nullptr, outcome);
   return outcome.status == Status::ok && outcome.answer == Answer::overlapping &&

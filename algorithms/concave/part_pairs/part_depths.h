@@ -42,11 +42,13 @@ class PartDepths {
   static constexpr std::uint32_t none = ~0U;
   struct Side {
     std::uint32_t part = none;
-    const SupportShape<double>* shape = nullptr;
+    const SupportShape<double>* shape = nullptr;  // null: a triangle that is not prepared yet
+    TriangleCorners corners = {};                 // of a triangle, in the body's coordinates
     ComposedPose placed = {};
     Triangle triangle;
   };
-  // Returns true if the parts surely overlap.
+  // These return true if the parts surely overlap. The normal is from the triangle to the ball.
+  static bool find_depth_of_ball(const Side& ball, const Side& triangle, Outcome& outcome);
   bool find_depth(Outcome& outcome);
   void place(const PlacedConcave& body, std::uint32_t part, Side& side) const;
 

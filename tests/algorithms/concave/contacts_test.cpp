@@ -91,6 +91,7 @@ TEST(ConcaveContacts, AreThoseThatAProofHas) {
     const Pose turned = {random.rotation(), random.vector(0.3)};
     ConcaveBody compound = body_of(reference::make_box(0.3, 0.2, 0.25), turned);
     compound.parts.push_back({reference::make_capsule(0.2, 0.3), {}, 0});
+    compound.parts.push_back({reference::make_sphere(0.35), turned, 0});
     compound.parts.push_back({ground, moved_by({0, 0, -0.5}), 0});
     std::array<ConcaveBody, 2> bodies = {torus, compound};
     Pose a = {random.rotation(), random.vector(0.5)}, b = {random.rotation(), random.vector(0.5)};
