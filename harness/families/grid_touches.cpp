@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algorithms/core/bounds.h"
+#include "harness/base/rotation_between.h"
 
 namespace touchstone::families {
 namespace {
@@ -80,8 +81,7 @@ std::optional<PlacedShape> swept(const Shape& shape, const Pose& pose, const Vec
   if (shape.kind == ShapeKind::sphere) {
     PlacedShape out{round_shape(ShapeKind::capsule, shape.radius, 0.5 * displacement.norm()), pose};
     out.pose.translation += 0.5 * displacement;
-    out.pose.rotation =
-        Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), displacement).toRotationMatrix();
+    out.pose.rotation = base::rotation_between(Vec3d::UnitZ(), displacement);
     return out;
   }
   std::vector<Vec3d> vertices;

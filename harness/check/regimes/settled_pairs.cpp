@@ -10,6 +10,7 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/random.h"
+#include "harness/base/rotation_between.h"
 
 namespace touchstone::check {
 namespace {
@@ -179,7 +180,7 @@ files::Case settled_pair(const SettledFamily& family, std::uint64_t seed, std::u
   c.shape_b = b.shape;
   // In a's frame b's face lies against a's, turned about the normal and tilted about its lowest
   // point.
-  Mat3d turn = Eigen::Quaterniond::FromTwoVectors(b.normal, -a.normal).toRotationMatrix();
+  Mat3d turn = base::rotation_between(b.normal, -a.normal);
   Vec3d offset = recipe.scale * place_on(recipe.place, half_a, half_b, random);
   if (recipe.place == Place::anywhere) {
     turn = Eigen::AngleAxisd(random.uniform(0, 6.28), a.normal).toRotationMatrix() * turn;

@@ -3,6 +3,7 @@
 
 #include "algorithms/kernels/motion/advancement/parting_step.h"
 #include "algorithms/kernels/motion/advancement/turning_normal.h"
+#include "harness/base/rotation_between.h"
 #include "harness/families/turning_pairs.h"
 #include "tests/algorithms/cast/turning_bodies.h"
 #include "tests/algorithms/one_in.h"
@@ -52,8 +53,7 @@ TEST(PartingStep, IsLongerWhereThePlaneTurnsWithItsFace) {
   MovingPairCase c;
   c.a = make_box(1, 1, 0.125);
   c.b = make_box(0.25, 0.25, 0.25);
-  c.pose_b.rotation =
-      Eigen::Quaterniond::FromTwoVectors(Vec3d(1, 1, 1), Vec3d(0, 0, -1)).toRotationMatrix();
+  c.pose_b.rotation = base::rotation_between({1, 1, 1}, {0, 0, -1});
   c.pose_b.translation = {0.3, 0.1, 0.125 + 0.25 * std::sqrt(3.0) + 1e-3};
   c.motion_a.rotation_vector = {0.5, 0, 0};
   const Turning turning(c);

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/base/rotation_between.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/algorithms/narrow_phase/brute_force.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/rotation_between.h"
 
 namespace touchstone::every_narrow_phase_test {
 namespace {
@@ -371,7 +371,7 @@ TEST_P(EveryNarrowPhase, ClimbsTheLadderOfGaps) {
   };
   const Mat3d on_edge_x = turn(M_PI / 4, Vec3d::UnitX()),
               on_edge_y = turn(M_PI / 4, Vec3d::UnitY());
-  const Mat3d on_corner = rotation_between({1, 1, 1}, {0, 0, -1});
+  const Mat3d on_corner = base::rotation_between({1, 1, 1}, {0, 0, -1});
   const Mat3d face = Mat3d::Identity(), turned = turn(0.3, Vec3d::UnitZ());
   struct Rung {
     Mat3d a, b;

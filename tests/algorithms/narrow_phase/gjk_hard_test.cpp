@@ -15,9 +15,9 @@
 #include <string>
 
 #include "algorithms/registry.h"
+#include "harness/base/rotation_between.h"
 #include "tests/algorithms/narrow_phase/polytope_reference.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/algorithms/rotation_between.h"
 
 namespace touchstone::gjk_hard_test {
 namespace {
@@ -230,7 +230,7 @@ TEST(GjkHalfspace, AgainstEveryKind) {
       const Vec3d up = (rotation * n).normalized();
       const Body ground = {make_halfspace(n, 6), {rotation, far * random.direction()}};
       // The body stands upright on the plane; its centre this high above.
-      const Mat3d upright = rotation_between(Vec3d::UnitZ(), up);
+      const Mat3d upright = base::rotation_between(Vec3d::UnitZ(), up);
       for (const double gap : {0.5, 1e-3, -1e-3, -10.}) {
         const Vec3d place = ground.pose.translation + (6 / n.norm() + gap + down) * up;
         const Body body = at(shape, place, upright);

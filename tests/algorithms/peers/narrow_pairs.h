@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "tests/algorithms/rotation_between.h"
+#include "harness/base/rotation_between.h"
 
 namespace touchstone::narrow_pairs {
 
@@ -227,7 +227,7 @@ inline Vec3d face(Placed& a, const Feature& on_a, Placed& b, const Feature& on_b
   const Mat3d spin =
       Eigen::AngleAxisd(std::uniform_real_distribution<double>(0, 6.28)(random), direction)
           .toRotationMatrix();
-  b.pose.rotation = spin * rotation_between(on_b.normal, -direction);
+  b.pose.rotation = spin * base::rotation_between(on_b.normal, -direction);
   b.pose.translation = a.pose(on_a.point) + gap * direction - b.pose.rotation * on_b.point;
   return direction;
 }

@@ -74,7 +74,8 @@ class Test:
         self.say(f"{plan.folder.name}: node n1 was killed with shard {lost.shard}, and started")
         requeued = plan.catch(lambda task: task.shard not in (kept.shard, lost.shard))
         self.cluster.run("scontrol", "requeue", requeued.job)
-        requeued.signal(signal.SIGCONT)
+        with contextlib.suppress(ProcessLookupError):  # Slurm may have ended it meanwhile
+            requeued.signal(signal.SIGCONT)
         self.say(f"{plan.folder.name}: shard {requeued.shard} was put back into the queue")
         killed = plan.catch(lambda task: task.shard not in (kept.shard, lost.shard, requeued.shard))
         killed.signal(signal.SIGKILL)

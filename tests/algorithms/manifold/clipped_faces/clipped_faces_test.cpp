@@ -10,8 +10,8 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "algorithms/registry.h"
+#include "harness/base/rotation_between.h"
 #include "tests/algorithms/random.h"
-#include "tests/algorithms/rotation_between.h"
 #include "tests/algorithms/shapes.h"
 
 namespace touchstone::reference {
@@ -158,7 +158,7 @@ TEST(ClippedFaces, AnEdgeOnAFaceHasTwoPointsAndACornerOne) {
     const Shape shape = hull ? hull_of_box(1, 1, 1) : make_box(1, 1, 1);
     expect_points(manifold_of(ground, at(shape, {0, 0, half - 0.1}, edge_down)),
                   {{-1, 0, -0.1}, {1, 0, -0.1}}, 1e-13);
-    const Mat3d corner_down = rotation_between({1, 1, 1}, {0, 0, -1});
+    const Mat3d corner_down = base::rotation_between({1, 1, 1}, {0, 0, -1});
     expect_points(manifold_of(ground, at(shape, {0, 0, std::sqrt(3.0) - 0.1}, corner_down)),
                   {{0, 0, -0.1}}, 1e-13);
   }
