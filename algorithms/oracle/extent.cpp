@@ -12,8 +12,6 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-bool is_half_space(const Body& body) { return body.solid->core == Solid::Core::halfspace; }
-
 IntegerVector to_integers(const Vec3d& n) {
   std::array<Dyadic, 3> parts;
   int exponent = Dyadic::of_zero;

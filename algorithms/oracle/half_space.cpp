@@ -8,8 +8,6 @@
 namespace touchstone::oracle {
 namespace {
 
-bool is_half_space(const Body& body) { return body.solid->core == Solid::Core::halfspace; }
-
 Vec3d unit(const IntegerVector& direction) {
   return make_direction(direction).rounded.normalized();
 }

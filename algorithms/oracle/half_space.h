@@ -15,6 +15,7 @@ struct ExactHalfSpace {
   long exponent = 0;
 };
 ExactHalfSpace exact_half_space(const Body& body);
+inline bool is_half_space(const Body& body) { return body.solid->core == Solid::Core::halfspace; }
 
 // Sets core_lower, core_upper and normal of the result. At least one of the bodies must be a
 // half-space. `pair` is scratch memory.

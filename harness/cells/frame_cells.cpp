@@ -192,7 +192,7 @@ struct LoopSource {
   std::string name() const {
     std::string text = file.stem().string();
     if (overrides.count != -1) text += fmt::format(", {} bodies", overrides.count);
-    if (overrides.moving) text += fmt::format(", {:.3g} % moving", 100 * *overrides.moving);
+    if (overrides.moving) text += fmt::format(", {:.6g} % moving", 100 * *overrides.moving);
     return text;
   }
 };
@@ -236,12 +236,15 @@ std::vector<LoopSource> read_sources(files::TomlTable& table, const std::filesys
   if (shares.empty()) shares.emplace_back();
   const auto frames = static_cast<int>(table.integer("frames", 2, 1'000'000, -1));
   const std::vector<std::int64_t> counts = table.integers("counts", 1, 100'000'000, -1);
+  // What is wrong with a scene is so at its least or its greatest count.
+  const auto [least, most] = std::ranges::minmax(counts);
   std::vector<LoopSource> sources;
   for (const std::string& file : table.texts("scenes", {})) {
     for (const std::int64_t count : counts) {
       for (const std::optional<double> share : shares) {
         sources.push_back({home / file, {.count = count, .frames = frames, .moving = share}});
-        if (count == counts.front()) check_source(table, sources.back());
+        const bool is_first = share == shares.front();
+        if (count == least || (is_first && count == most)) check_source(table, sources.back());
       }
     }
   }

@@ -1,11 +1,16 @@
 // Reads a table [cells]: what all kinds have, then what is the kind's own.
 #include "harness/cells/read_cells.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "harness/base/hash.h"
 #include "harness/cells/kinds.h"
@@ -28,6 +33,18 @@ std::string fingerprint(const std::string& text) {
   return base::to_hex(hash);
 }
 
+// Rows of a cell are found by its name.
+void refuse_equal_names(files::TomlTable& table, const std::vector<PlannedCell>& cells) {
+  std::set<std::pair<std::string, std::string>> names;
+  for (const PlannedCell& cell : cells) {
+    if (names.emplace(cell.group, cell.name).second) continue;
+    table.fail("kind",
+               fmt::format("two cells are called '{}, {}'; expected lists without repetition, "
+                           "and files of different names",
+                           cell.group, cell.name));
+  }
+}
+
 }  // namespace
 
 bool has_cells(const std::filesystem::path& file) { return files::has_key(file, "cells"); }
@@ -44,6 +61,7 @@ CellRequest read_cells(const std::filesystem::path& file) {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   request.seed = static_cast<std::uint64_t>(table.integer("order_seed", 0, most, 1));
   request.cells = makers[table.choice("kind", kinds)](table, file.parent_path());
+  refuse_equal_names(table, request.cells);
   table.finish();
   top.finish();
   request.identity = {{"cells_hash", fingerprint(files::read_text(file))}};

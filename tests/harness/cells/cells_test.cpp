@@ -235,6 +235,13 @@ TEST(Cells, WrongFilesAreRefusedWithTheirLine) {
               HasSubstr("0 to 1"));
   EXPECT_THAT(error_of(folder, frames + "scenes = \"one.toml\"\nframes = 1\n"),
               HasSubstr("frames"));
+  EXPECT_THAT(
+      error_of(folder,
+               frames + "scenes = \"one.toml\"\nframes = 2\nasks = [\"pairs\", \"pairs\"]\n"),
+      HasSubstr("two cells are called 'one, pairs'"));
+  folder.write("five.toml", "generator = \"uniform\"\ncount = 100\noverlaps = 5\n");
+  EXPECT_THAT(error_of(folder, frames + "scenes = \"five.toml\"\nframes = 2\ncounts = [100, 1]\n"),
+              HasSubstr("five.toml"));
   EXPECT_THAT(error_of(folder, frames + "scenes = \"listed.toml\"\nmoving = 0.5\n"),
               HasSubstr("listed.toml"));
   EXPECT_THAT(error_of(folder, "kind = \"ccd\"\nvertex_face = \"nothing.csv\"\n"),

@@ -213,6 +213,20 @@ class CcdBlock final : public CaseBlock {
                              lengths.separation + 1.01 * lengths.tolerance, oracle_);
   }
 
+  // True if distances at some times are not what the oracle's answer says, up to the 2^-40 between its
+  // bounds. They do not come from its polynomials.
+  bool contradicts(std::size_t i, const CcdOutcome& outcome, const Lengths& lengths) {
+    const bool is_hit = outcome.answer == CcdAnswer::hit;
+    const auto side = [&](double time) {
+      return side_of_distance(queries_[i], first_count(), time, lengths.separation, oracle_);
+    };
+    const double free_until = is_hit ? outcome.free_before : 1;
+    for (const double part : {0.25, 0.5, 0.75}) {
+      if (free_until > 0 && side(part * free_until) < 0) return true;
+    }
+    return is_hit && side(outcome.contact_by) > 0;
+  }
+
   // True if the outcome's times are not those of the contact.
   bool is_off(const Contestant& contestant, std::size_t i, const CcdOutcome& outcome,
               bool is_backward) {
@@ -220,10 +234,10 @@ class CcdBlock final : public CaseBlock {
     const oracle::ccd::Impact& exact = truth(contestant, i);
     switch (contestant.info().origin) {
       case Origin::peer: return !is_backward && outcome.toi > exact.contact_by + late;
-      // It has no tolerance, and bounds that are up to 2^-40 apart.
       case Origin::oracle:
-        return !is_backward && (outcome.free_before > exact.contact_by + apart ||
-                                outcome.contact_by < exact.free_before - apart);
+        return !is_backward && (!(outcome.free_before <= exact.contact_by + apart) ||
+                                !(outcome.contact_by >= exact.free_before - apart) ||
+                                contradicts(i, outcome, lengths_of(contestant, i)));
       case Origin::ours: break;
     }
     return !is_backward && is_apart(i, outcome.contact_by, lengths_of(contestant, i));
@@ -241,7 +255,9 @@ class CcdBlock final : public CaseBlock {
     if (is_late && outcome.answer != CcdAnswer::miss) return with(CaseGrade::wrong);
     if (const auto by_status = grade_of_status(outcome.status, is_unknown)) return with(*by_status);
     if (outcome.answer == CcdAnswer::miss) {
-      return with(exact.is_hit ? CaseGrade::missed : CaseGrade::right);
+      const bool is_false = contestant.info().origin == Origin::oracle &&
+                            contradicts(i, outcome, lengths_of(contestant, i));
+      return with(exact.is_hit || is_false ? CaseGrade::missed : CaseGrade::right);
     }
     const double by = std::isnan(outcome.contact_by) ? outcome.toi : outcome.contact_by;
     const bool is_apart_then = is_apart(i, is_backward ? 1 - by : by, lengths_of(contestant, i));

@@ -42,6 +42,25 @@ oracle::Solid hull_of(std::vector<Vec3d> vertices) {
   return oracle::Solid(shape);
 }
 
+// The distance of the features at a time, whose places are rounded, and the greatest coordinate.
+struct MeasuredAt {
+  oracle::Measure measure;
+  double reach;
+};
+MeasuredAt measured_at(const CcdQuery& query, int first_count, double time,
+                       oracle::Oracle& oracle) {
+  std::array<std::vector<Vec3d>, 2> features;
+  double reach = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3d &start = query.start[k], &end = query.end[k];
+    features[k < static_cast<std::size_t>(first_count) ? 0 : 1].push_back((1 - time) * start +
+                                                                          time * end);
+    reach = std::max({reach, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
+  }
+  const oracle::Solid a = hull_of(std::move(features[0])), b = hull_of(std::move(features[1]));
+  return {oracle.measure({a, Pose{}}, {b, Pose{}}), reach};
+}
+
 }  // namespace
 
 std::optional<CcdQuery> query_in_form(const CcdQuery& query, int first_count, double scale,
@@ -69,18 +88,16 @@ std::optional<std::array<Vec3d, 4>> vertices_halfway(const CcdQuery& query) {
   return middle;
 }
 
+int side_of_distance(const CcdQuery& query, int first_count, double time, double distance,
+                     oracle::Oracle& oracle) {
+  const auto [measure, reach] = measured_at(query, first_count, time, oracle);
+  const double doubt = 0x1p-36 * reach;
+  return measure.lower > distance + doubt ? 1 : measure.upper < distance - doubt ? -1 : 0;
+}
+
 bool are_further_apart(const CcdQuery& query, int first_count, double time, double distance,
                        oracle::Oracle& oracle) {
-  std::array<std::vector<Vec3d>, 2> features;
-  double reach = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vec3d &start = query.start[k], &end = query.end[k];
-    features[k < static_cast<std::size_t>(first_count) ? 0 : 1].push_back((1 - time) * start +
-                                                                          time * end);
-    reach = std::max({reach, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
-  }
-  const oracle::Solid a = hull_of(std::move(features[0])), b = hull_of(std::move(features[1]));
-  const oracle::Measure measure = oracle.measure({a, Pose{}}, {b, Pose{}});
+  const auto [measure, reach] = measured_at(query, first_count, time, oracle);
   return measure.lower > distance + 64 * 0x1p-52 * reach;
 }
 

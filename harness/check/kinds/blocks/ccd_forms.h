@@ -19,6 +19,11 @@ std::optional<CcdQuery> query_in_form(const CcdQuery& query, int first_count, do
 // The vertices halfway, if they are exact.
 std::optional<std::array<Vec3d, 4>> vertices_halfway(const CcdQuery& query);
 
+// 1 if the features are further apart than that at the time (metres), -1 if they are nearer, both by more
+// than rounding and what they move in 2^-38 of the time; 0 between.
+int side_of_distance(const CcdQuery& query, int first_count, double time, double distance,
+                     oracle::Oracle& oracle);
+
 // True if the features are further apart than that at the time, beyond rounding (metres).
 bool are_further_apart(const CcdQuery& query, int first_count, double time, double distance,
                        oracle::Oracle& oracle);
