@@ -14,12 +14,17 @@ using reference::Random;
 
 void expect_takes(const Vec3d& from, const Vec3d& to) {
   const Mat3d turn = rotation_between(from, to);
-  EXPECT_LT((turn * turn.transpose() - Mat3d::Identity()).norm(), 1e-14);
+  const Vec3d a = from.normalized(), b = to.normalized();
+  const double to_opposite = 1 + a.dot(b);
+  const double tolerance = to_opposite < 1e-12 ? 1e-14 : 1e-14 + 4e-15 / to_opposite;
+  EXPECT_LT((turn * turn.transpose() - Mat3d::Identity()).norm(), tolerance);
   EXPECT_GT(turn.determinant(), 0);
-  EXPECT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-14);
+  EXPECT_LT((turn * a - b).norm(), tolerance);
   // What is across both stays: the angle is the smallest.
-  const Vec3d across = from.normalized().cross(to.normalized());
-  if (across.norm() > 1e-3) EXPECT_LT((turn * across - across).norm(), 1e-14);
+  const Vec3d across = a.cross(b);
+  if (across.norm() > 1e-3) {
+    EXPECT_LT((turn * across - across).norm(), tolerance);
+  }
 }
 
 TEST(RotationBetween, TakesOneDirectionToTheOther) {
