@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "algorithms/registry.h"
 #include "harness/cells/choices.h"
 #include "harness/cells/kinds.h"
 #include "harness/grade/pair_check.h"
-#include "harness/measure/phases/overlapping_pairs.h"
-#include "harness/scene/player.h"
+#include "harness/measure/phases/block_input.h"
 
 namespace touchstone::cells {
 namespace {
@@ -49,31 +48,30 @@ struct FrameLoop {
   }
 };
 
-void add_frame(std::size_t boxes, const Frame& change, bool is_back, FrameLoop& loop) {
-  Frame& frame = loop.frames.emplace_back(change);
+void add_frame(std::size_t boxes, const measure::BlockFrame& change, bool is_back,
+               FrameLoop& loop) {
+  Frame& frame = loop.frames.emplace_back();
   frame.boxes = boxes;
-  if (is_back) std::swap(frame.inserted, frame.removed);
-  frame.fresh.clear();
+  frame.moved = change.moved;
+  frame.inserted = is_back ? change.removed : change.inserted;
+  frame.removed = is_back ? change.inserted : change.removed;
   std::ranges::merge(frame.moved, frame.inserted, std::back_inserter(frame.fresh));
 }
 
 FrameLoop make_loop(const scene::Scene& scene) {
+  measure::BlockInput played(scene, scene::BoxKind::tight, false);
   FrameLoop loop;
-  std::vector<Frame> changes;
-  scene::ScenePlayer player(scene, scene::BoxKind::tight);
-  do {
-    loop.boxes.emplace_back(player.boxes().begin(), player.boxes().end());
-    loop.truth.push_back(measure::overlapping_pairs(loop.boxes.back()));
-    const FrameChange change = player.change();
-    Frame& kept = changes.emplace_back();
-    kept.moved.assign(change.moved.begin(), change.moved.end());
-    kept.inserted.assign(change.inserted.begin(), change.inserted.end());
-    kept.removed.assign(change.removed.begin(), change.removed.end());
-  } while (player.next());
   // An array of boxes never shrinks: on the way back those that have not come yet are empty.
-  for (std::vector<Aabb>& boxes : loop.boxes) boxes.resize(loop.boxes.back().size(), Aabb::empty());
-  for (std::size_t i = 1; i < changes.size(); ++i) add_frame(i, changes[i], false, loop);
-  for (std::size_t i = changes.size(); i-- > 1;) add_frame(i - 1, changes[i], true, loop);
+  const std::size_t slots = played.frames.back().boxes.size();
+  for (measure::BlockFrame& frame : played.frames) {
+    loop.boxes.push_back(std::move(frame.boxes));
+    loop.boxes.back().resize(slots, Aabb::empty());
+    loop.truth.push_back(std::move(frame.truth));
+  }
+  for (std::size_t i = 1; i < played.frames.size(); ++i)
+    add_frame(i, played.frames[i], false, loop);
+  for (std::size_t i = played.frames.size(); i-- > 1;)
+    add_frame(i - 1, played.frames[i], true, loop);
   return loop;
 }
 

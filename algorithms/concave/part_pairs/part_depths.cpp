@@ -1,5 +1,6 @@
-// Depths of pairs of parts. The nearest point tells that of a ball, GJK and EPA in doubles most others, with
-// bounds that hold beyond their rounding; a narrow phase that proves more takes several times as long to prepare two shapes.
+// Depths of pairs of parts. The nearest point tells that of a ball under a triangle, GJK and EPA in
+// doubles most others, with bounds that hold beyond their rounding. A narrow phase that proves more takes
+// several times as long to prepare two shapes.
 #include "algorithms/concave/part_pairs/part_depths.h"
 
 #include <algorithm>

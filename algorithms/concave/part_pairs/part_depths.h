@@ -1,4 +1,4 @@
-// Part of part-pairs: depths of pairs of parts by GJK and EPA. Includes core, kernels and this folder.
+// Part of part-pairs: depths of pairs of parts, a narrow phase as the last resort. Includes core, kernels and this folder.
 #pragma once
 
 #include <cstdint>

@@ -103,12 +103,7 @@ std::vector<ContactTime> candidates(const Conditions& conditions) {
     for (std::size_t i = 0; i < 4; ++i) add(conditions.area(i, axis));
     std::ranges::for_each(conditions.differences(axis), add);
   }
-  // Comparing makes the cells smaller, so this sorts by hand.
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    for (std::size_t k = i; k > 0 && std::is_lt(compare(times[k], times[k - 1])); --k) {
-      std::swap(times[k], times[k - 1]);
-    }
-  }
+  sort_by_time(times, [](ContactTime& time) -> ContactTime& { return time; });
   return times;
 }
 

@@ -2,7 +2,6 @@
 #include "algorithms/oracle/ccd/first_within.h"
 
 #include <algorithm>
-#include <compare>
 #include <utility>
 #include <vector>
 
@@ -39,11 +38,7 @@ std::vector<Candidate> candidates(const std::vector<PartPolynomials>& parts) {
       add(part.within);
     }
   }
-  // Comparing makes the cells smaller, so this sorts by hand.
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    for (std::size_t k = i; k > 0 && std::is_lt(compare(all[k].time, all[k - 1].time)); --k)
-      std::swap(all[k], all[k - 1]);
-  }
+  sort_by_time(all, [](Candidate& candidate) -> WithinTime& { return candidate.time; });
   return all;
 }
 

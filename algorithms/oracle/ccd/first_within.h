@@ -12,8 +12,8 @@ using WithinTime = Root<6>;
 
 // The first time in [0, 1] at which the closed features are no further apart than the separation
 // (metres, finite, >= 0; 0: contact); nothing if there is none. There is no tolerance and no rounding.
-// 0.05 to 2 ms for doubles of about one size,
-// and up to a second where they are from the whole range.
+// It takes 0.05 to 2 ms for doubles of about one size, and up to a second where they are from the whole
+// range.
 std::optional<WithinTime> first_within(const MovingFeatures& features, double separation);
 
 // The same answer in doubles, as impact_of.

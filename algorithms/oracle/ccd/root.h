@@ -3,6 +3,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,17 @@ class Root {
 
 template <int most>
 std::strong_ordering compare(Root<most>& x, Root<most>& y);
+
+// Sorts by the times that `time_of` gives. Comparing makes their cells smaller, so it sorts by hand.
+template <class Item, class TimeOf>
+void sort_by_time(std::vector<Item>& items, const TimeOf& time_of) {
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    for (std::size_t k = i; k > 0; --k) {
+      if (!std::is_lt(compare(time_of(items[k]), time_of(items[k - 1])))) break;
+      std::swap(items[k], items[k - 1]);
+    }
+  }
+}
 
 // The roots in [0, 1], each once, in order. The polynomial is not zero.
 template <int most>

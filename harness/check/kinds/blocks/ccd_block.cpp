@@ -227,20 +227,23 @@ class CcdBlock final : public CaseBlock {
     return is_hit && side(outcome.contact_by) > 0;
   }
 
-  // True if the outcome's times are not those of the contact.
-  bool is_off(const Contestant& contestant, std::size_t i, const CcdOutcome& outcome,
-              bool is_backward) {
+  // True if a hit's times are not those of the contact.
+  bool is_off(const Contestant& contestant, std::size_t i, const CcdOutcome& outcome) {
     constexpr double late = 1e-6, apart = 0x1p-39;  // of the time
     const oracle::ccd::Impact& exact = truth(contestant, i);
+    const Lengths lengths = lengths_of(contestant, i);
     switch (contestant.info().origin) {
-      case Origin::peer: return !is_backward && outcome.toi > exact.contact_by + late;
+      case Origin::peer: return outcome.toi > exact.contact_by + late;
       case Origin::oracle:
-        return !is_backward && (!(outcome.free_before <= exact.contact_by + apart) ||
-                                !(outcome.contact_by >= exact.free_before - apart) ||
-                                contradicts(i, outcome, lengths_of(contestant, i)));
+        return !(outcome.free_before <= exact.contact_by + apart) ||
+               !(outcome.contact_by >= exact.free_before - apart) ||
+               contradicts(i, outcome, lengths);
       case Origin::ours: break;
     }
-    return !is_backward && is_apart(i, outcome.contact_by, lengths_of(contestant, i));
+    return is_apart(i, contact_of(outcome), lengths);
+  }
+  static double contact_of(const CcdOutcome& outcome) {
+    return std::isnan(outcome.contact_by) ? outcome.toi : outcome.contact_by;
   }
 
   GradedCase grade(const Contestant& contestant, std::size_t i, const CcdOutcome& outcome,
@@ -259,10 +262,13 @@ class CcdBlock final : public CaseBlock {
                             contradicts(i, outcome, lengths_of(contestant, i));
       return with(exact.is_hit || is_false ? CaseGrade::missed : CaseGrade::right);
     }
-    const double by = std::isnan(outcome.contact_by) ? outcome.toi : outcome.contact_by;
-    const bool is_apart_then = is_apart(i, is_backward ? 1 - by : by, lengths_of(contestant, i));
-    if (!exact.is_hit) return with(is_apart_then ? CaseGrade::false_hit : CaseGrade::near);
-    return with(is_off(contestant, i, outcome, is_backward) ? CaseGrade::wrong : CaseGrade::right);
+    if (!exact.is_hit) {
+      const double by = contact_of(outcome);
+      const bool is_false = is_apart(i, is_backward ? 1 - by : by, lengths_of(contestant, i));
+      return with(is_false ? CaseGrade::false_hit : CaseGrade::near);
+    }
+    const bool is_wrong = !is_backward && is_off(contestant, i, outcome);
+    return with(is_wrong ? CaseGrade::wrong : CaseGrade::right);
   }
 
   const families::CcdFamily& family_;
