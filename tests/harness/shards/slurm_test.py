@@ -74,7 +74,9 @@ class Test:
         self.say(f"{plan.folder.name}: node n1 was killed with shard {lost.shard}, and started")
         requeued = plan.catch(lambda task: task.shard not in (kept.shard, lost.shard))
         self.cluster.run("scontrol", "requeue", requeued.job)
-        with contextlib.suppress(ProcessLookupError):  # Slurm may have ended it meanwhile
+        # Without the signal it may end before Slurm ends it, and is not begun again.
+        wait_until(lambda: is_told_to_end(requeued.process), 30, "the end of what was put back")
+        with contextlib.suppress(ProcessLookupError):
             requeued.signal(signal.SIGCONT)
         self.say(f"{plan.folder.name}: shard {requeued.shard} was put back into the queue")
         killed = plan.catch(lambda task: task.shard not in (kept.shard, lost.shard, requeued.shard))
@@ -207,6 +209,15 @@ class LongTest(Test):
             self.complete(plan)
         attempts = sum(plan.events(shard).count("begun") for plan in plans for shard in range(SHARDS))
         self.say(f"{2 * SHARDS} shards, {attempts} attempts: the rows of undisturbed runs")
+
+
+def is_told_to_end(process):
+    """Whether a process that was held has ended, was let go on by the scheduler, or has a signal to end."""
+    try:
+        status = pathlib.Path("/proc", str(process), "status").read_text()
+        return not re.search(r"^State:\s+[Tt]", status, re.MULTILINE) or pending(process, signal.SIGTERM)
+    except (FileNotFoundError, ProcessLookupError):
+        return True
 
 
 def pending(process, number):
