@@ -59,7 +59,7 @@ struct CastEntry {
   std::vector<Precision> scalars;
   // True if bodies may turn. Otherwise `solve` never gets a motion with a rotation.
   bool rotation = false;
-  // True if it honours StartContact::approach; otherwise it is never made with that.
+  // True if it honours StartContact::approach for bodies that do not turn; otherwise it is never made with that.
   bool approach = false;
   // True for the kinds of pairs that it supports, kind_a <= kind_b, if one of them turns or none
   // does; null means all. `solve` never gets other pairs: their outcome is `unsupported`.

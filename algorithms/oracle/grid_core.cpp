@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "algorithms/oracle/numbers/dyadic.h"
 #include "algorithms/oracle/numbers/square_root.h"
@@ -58,21 +59,30 @@ Direction make_direction(IntegerVector exact) {
   return direction;
 }
 
-void GridCore::place(const Body& body, const Mat3d& matrix, double scale, const Vec3d& origin) {
+void GridCore::place(const Body& body, const Mat3d& matrix, double scale, const Vec3d& origin,
+                     const Vec3d& sweep) {
   solid_ = body.solid;
   matrix_ = matrix;
   scale_ = scale;
   origin_ = origin;
+  is_swept_ = body.sweep.has_value();
+  sweep_ = sweep;
   points_.clear();
-  const std::size_t count = solid_->x.size();
-  x_.resize(count);
-  y_.resize(count);
-  z_.resize(count);
+  at_end_.clear();
+  const std::size_t count = solid_->x.size(), all = is_swept_ ? 2 * count : count;
+  x_.resize(all);
+  y_.resize(all);
+  z_.resize(all);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3d point = turned({solid_->x[i], solid_->y[i], solid_->z[i]});
     x_[i] = point.x();
     y_[i] = point.y();
     z_[i] = point.z();
+  }
+  for (std::size_t i = count; i < all; ++i) {
+    x_[i] = x_[i - count] + sweep.x();
+    y_[i] = y_[i - count] + sweep.y();
+    z_[i] = z_[i - count] + sweep.z();
   }
 }
 
@@ -90,7 +100,8 @@ Generator GridCore::generator(std::uint32_t i) const {
 
 std::uint32_t GridCore::support(const Vec3d& direction) {
   if (solid_->is_curved()) {
-    return add_point((matrix_.transpose().cast<long double>() * direction.cast<long double>()));
+    return add_point((matrix_.transpose().cast<long double>() * direction.cast<long double>()),
+                     is_swept_ && direction.dot(sweep_) > 0);
   }
   const std::size_t count = x_.size();
   std::uint32_t best = 0;
@@ -137,7 +148,7 @@ bool GridCore::holds(const std::array<std::int64_t, 3>& point) const {
   return false;
 }
 
-std::uint32_t GridCore::add_point(const Vec3l& local_direction) {
+std::uint32_t GridCore::add_point(const Vec3l& local_direction, bool at_end) {
   Vec3l extents;
   for (int k = 0; k < 3; ++k) {
     extents[k] = std::ldexp(static_cast<long double>(solid_->extents[k]), -solid_->grid[k]);
@@ -162,11 +173,13 @@ std::uint32_t GridCore::add_point(const Vec3l& local_direction) {
     if (apex || holds(point)) break;
   }
   points_.push_back(point);
+  at_end_.push_back(at_end ? 1 : 0);
   Vec3d rounded;
   for (int k = 0; k < 3; ++k) {
     rounded[k] = static_cast<double>(static_cast<long double>(point[k]) * units[k]);
   }
-  const Vec3d place = turned(rounded);
+  Vec3d place = turned(rounded);
+  if (at_end) place += sweep_;
   x_.push_back(place.x());
   y_.push_back(place.y());
   z_.push_back(place.z());
@@ -174,7 +187,8 @@ std::uint32_t GridCore::add_point(const Vec3l& local_direction) {
 }
 
 void GridCore::place_exactly(const ExactMatrix& matrix, long exponent, const Integer& others,
-                             const IntegerVector& origin) {
+                             const IntegerVector& origin, IntegerVector sweep) {
+  exact_sweep_ = std::move(sweep);
   for (int k = 0; k < 3; ++k) {
     const Integer step =
         solid_->is_box ? dyadic(solid_->vertices[7][k]).over_power(solid_->grid[k]) : Integer(1);
@@ -201,10 +215,12 @@ const IntegerVector& GridCore::exact(std::uint32_t i) {
   if (known_[i]) return point;
   known_[i] = 1;
   point = exact_origin_;
+  if (is_at_end(i)) point = point + exact_sweep_;
+  const std::size_t own = solid_->is_curved() ? i : i % solid_->x.size();
   for (int k = 0; k < 3; ++k) {
     if (solid_->is_box) {
       for (int row = 0; row < 3; ++row) {
-        if (i >> k & 1) {
+        if (own >> k & 1) {
           point[row] += columns_[k][row];
         } else {
           point[row] -= columns_[k][row];
@@ -213,8 +229,8 @@ const IntegerVector& GridCore::exact(std::uint32_t i) {
       continue;
     }
     const Integer steps = solid_->is_curved()
-                              ? Integer(points_[i][k])
-                              : dyadic(solid_->vertices[i][k]).over_power(solid_->grid[k]);
+                              ? Integer(points_[own][k])
+                              : dyadic(solid_->vertices[own][k]).over_power(solid_->grid[k]);
     if (steps.is_zero()) continue;
     for (int row = 0; row < 3; ++row) point[row] += columns_[k][row] * steps;
   }
@@ -278,7 +294,11 @@ SupportBounds GridCore::support_bounds(const IntegerVector& direction, int shift
     case Solid::Core::polytope:
     case Solid::Core::halfspace: break;
   }
-  const Integer at = dot(direction, exact_origin_) << shift;
+  Integer at = dot(direction, exact_origin_) << shift;
+  if (is_swept_) {
+    const Integer further = dot(direction, exact_sweep_);
+    if (further > 0) at += further << shift;
+  }
   bounds.low += at;
   bounds.high += at;
   return bounds;

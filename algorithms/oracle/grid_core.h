@@ -34,10 +34,12 @@ class GridCore {
 
   // `matrix` is the body's linear part times a power of two, so that no entry is beyond 1. `scale`
   // is the power of two that takes the solid's filter coordinates, multiplied by the matrix, to the
-  // pair's unit.
-  void place(const Body& body, const Mat3d& matrix, double scale, const Vec3d& origin);
+  // pair's unit, in which `sweep` is what the body is swept by.
+  void place(const Body& body, const Mat3d& matrix, double scale, const Vec3d& origin,
+             const Vec3d& sweep);
 
-  // Number of generators: the vertices of a polytope, or the points of a curved core made so far.
+  // Number of generators: the vertices of a polytope, and those at the end of a sweep behind them, or
+  // the points of a curved core made so far.
   std::size_t size() const { return x_.size(); }
   const Solid& solid() const { return *solid_; }
   const Vec3d& origin() const { return origin_; }  // the body's origin
@@ -49,9 +51,9 @@ class GridCore {
 
   // Sets the coordinates as integers: multiples of 2^exponent over the product of the pair's
   // denominators, relative to body a's origin. `others` is the denominator of the other body's
-  // matrix.
+  // matrix. `sweep` is in the same unit.
   void place_exactly(const ExactMatrix& matrix, long exponent, const Integer& others,
-                     const IntegerVector& origin);
+                     const IntegerVector& origin, IntegerVector sweep);
   const IntegerVector& exact(std::uint32_t i);
   // Returns a furthest vertex; for a curved core, a point as in `support`.
   std::uint32_t exact_support(const Direction& direction, double filter_scale);
@@ -60,7 +62,11 @@ class GridCore {
 
  private:
   Vec3d turned(const Vec3d& local) const { return scale_ * (matrix_ * local) + origin_; }
-  std::uint32_t add_point(const Vec3<long double>& local_direction);
+  std::uint32_t add_point(const Vec3<long double>& local_direction, bool at_end);
+  // True for a generator at the end of the sweep.
+  bool is_at_end(std::uint32_t i) const {
+    return solid_->is_curved() ? at_end_[i] != 0 : i >= solid_->x.size();
+  }
   bool holds(const std::array<std::int64_t, 3>& point) const;
   Integer extent(int k) const;  // of a curved core, in steps of the solid's grid
 
@@ -70,6 +76,10 @@ class GridCore {
   Vec3d origin_;
   std::vector<double> x_, y_, z_;
   std::vector<std::array<std::int64_t, 3>> points_;  // of a curved core, in grid steps
+  std::vector<std::uint8_t> at_end_;                 // for each of these
+  bool is_swept_ = false;
+  Vec3d sweep_;
+  IntegerVector exact_sweep_;
   // One step of the solid's grid along each axis; for a box, its half extents.
   std::array<IntegerVector, 3> columns_;
   IntegerVector exact_origin_;

@@ -53,6 +53,36 @@ ScaledMatrix scaled_matrix(const Body& body) {
   return {scaled_by(body.matrix, -exponent), exponent};
 }
 
+// to - from, rounded once, is `vector` times 2^exponent.
+struct ScaledDifference {
+  ScaledDifference() = default;
+  ScaledDifference(const Vec3d& from, const Vec3d& to) {
+    const double furthest = std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
+    if (furthest > 0) exponent = exponent_of(furthest);
+    vector = scaled_by(to, -exponent) - scaled_by(from, -exponent);
+  }
+  // No coordinate is greater than 2^reach().
+  int reach() const {
+    const int own = exponent_of(vector.cwiseAbs().maxCoeff());
+    return own == none ? none : own + exponent;
+  }
+  Vec3d over_power(int power) const { return scaled_by(vector, exponent - power); }
+
+  Vec3d vector = Vec3d::Zero();
+  int exponent = 0;
+};
+
+ScaledDifference sweep_of(const Body& body) {
+  return body.sweep ? ScaledDifference((*body.sweep)[1], (*body.sweep)[0]) : ScaledDifference();
+}
+
+// A number for each axis, times 2^-exponent.
+IntegerVector over_power(const Vec3d& v, long exponent) {
+  IntegerVector scaled;
+  for (int k = 0; k < 3; ++k) scaled[k] = dyadic(v[k]).over_power(static_cast<int>(exponent));
+  return scaled;
+}
+
 }  // namespace
 
 void GridPair::place(const Body& body_a, const Body& body_b) {
@@ -62,46 +92,45 @@ void GridPair::place(const Body& body_a, const Body& body_b) {
   const ScaledMatrix matrix_a = scaled_matrix(body_a), matrix_b = scaled_matrix(body_b);
   const int reach_a = body_a.solid->exponent + matrix_a.exponent;
   const int reach_b = body_b.solid->exponent + matrix_b.exponent;
-  // The offset is divided by a power of two that bounds both origins.
-  const double furthest =
-      std::max(body_a.translation.cwiseAbs().maxCoeff(), body_b.translation.cwiseAbs().maxCoeff());
-  const int far = furthest == 0 ? 0 : exponent_of(furthest);
-  const Vec3d offset = scaled_by(body_b.translation, -far) - scaled_by(body_a.translation, -far);
-  const int apart = exponent_of(offset.cwiseAbs().maxCoeff());
+  const ScaledDifference offset(body_a.translation, body_b.translation);
+  const ScaledDifference sweep_a = sweep_of(body_a), sweep_b = sweep_of(body_b);
   const double radii = body_a.solid->radius / 2 + body_b.solid->radius / 2;
-  int unit = std::max({reach_a, reach_b, apart == none ? none : apart + far,
+  int unit = std::max({reach_a, reach_b, offset.reach(), sweep_a.reach(), sweep_b.reach(),
                        radii > 0 ? exponent_of(radii) + 1 : none});
   if (unit == none) unit = 0;
   unit_ = unit;
   radius = 2 * scaled_by(radii, -unit);
-  a.place(body_a, matrix_a.matrix, power(reach_a - unit), Vec3d::Zero());
-  b.place(body_b, matrix_b.matrix, power(reach_b - unit), scaled_by(offset, far - unit));
+  a.place(body_a, matrix_a.matrix, power(reach_a - unit), Vec3d::Zero(), sweep_a.over_power(unit));
+  b.place(body_b, matrix_b.matrix, power(reach_b - unit), offset.over_power(unit),
+          sweep_b.over_power(unit));
 }
 
 void GridPair::place_exactly() {
   if (exactly_) return;
   exactly_ = true;
   const ExactMatrix matrix_a = exact_matrix(*body_a_), matrix_b = exact_matrix(*body_b_);
-  std::array<Dyadic, 3> origin_a, origin_b;
   exponent_ = Dyadic::of_zero;
-  const auto cover = [&](const Body& body, const ExactMatrix& matrix,
-                         std::array<Dyadic, 3>& origin) {
+  const auto cover = [&](const Body& body, const ExactMatrix& matrix) {
     for (int k = 0; k < 3; ++k) {
       exponent_ = std::min<long>(exponent_, matrix.exponent + body.solid->grid[k]);
-      origin[k] = dyadic(body.translation[k]);
-      exponent_ = std::min<long>(exponent_, origin[k].exponent);
+      exponent_ = std::min<long>(exponent_, dyadic(body.translation[k]).exponent);
+      if (!body.sweep) continue;
+      for (const Vec3d& end : *body.sweep)
+        exponent_ = std::min<long>(exponent_, dyadic(end[k]).exponent);
     }
   };
-  cover(*body_a_, matrix_a, origin_a);
-  cover(*body_b_, matrix_b, origin_b);
+  cover(*body_a_, matrix_a);
+  cover(*body_b_, matrix_b);
   denominator_ = matrix_a.denominator * matrix_b.denominator;
-  IntegerVector offset;
-  for (int k = 0; k < 3; ++k) {
-    const int e = static_cast<int>(exponent_);
-    offset[k] = (origin_b[k].over_power(e) - origin_a[k].over_power(e)) * denominator_;
-  }
-  a.place_exactly(matrix_a, exponent_, matrix_b.denominator, {0, 0, 0});
-  b.place_exactly(matrix_b, exponent_, matrix_a.denominator, offset);
+  const auto between = [&](const Vec3d& from, const Vec3d& to) {
+    return denominator_ * (over_power(to, exponent_) - over_power(from, exponent_));
+  };
+  const auto exact_sweep_of = [&](const Body& body) {
+    return body.sweep ? between((*body.sweep)[1], (*body.sweep)[0]) : IntegerVector{};
+  };
+  a.place_exactly(matrix_a, exponent_, matrix_b.denominator, {0, 0, 0}, exact_sweep_of(*body_a_));
+  b.place_exactly(matrix_b, exponent_, matrix_a.denominator,
+                  between(body_a_->translation, body_b_->translation), exact_sweep_of(*body_b_));
 }
 
 DifferencePoint GridPair::exact_support(const Direction& direction, double filter_scale) {

@@ -50,7 +50,8 @@ ExactMeasure above_plane(const Body& body, const Body& half_space, GridPair& pai
   const Solid point(shape);  // a point at the half-space's origin
   Pose pose;
   pose.translation = half_space.translation;
-  const Body origin(point, pose);
+  Body origin(point, pose);
+  origin.sweep = half_space.sweep;
   pair.place(body, origin);
   pair.place_exactly();
   const Direction down = make_direction(-plane.normal);
@@ -97,20 +98,29 @@ ExactMeasure between_planes(const Body& a, const Body& b, Certificate* certifica
   // normal_b = -against / square * normal_a. Times |normal_a|, with x relative to a, the gap is
   // normal_a . (t_b - t_a) - offset_b * square / against - offset_a.
   const Integer square = dot(plane_a.normal, plane_a.normal);
-  Integer along = 0;
   long exponent = Dyadic::of_zero;
-  std::array<Dyadic, 3> from, to;
-  for (int k = 0; k < 3; ++k) {
-    from[k] = dyadic(a.translation[k]);
-    to[k] = dyadic(b.translation[k]);
-    exponent = std::min(
-        {exponent, static_cast<long>(from[k].exponent), static_cast<long>(to[k].exponent)});
+  const auto cover = [&](const Vec3d& v) {
+    for (const double x : v) exponent = std::min<long>(exponent, dyadic(x).exponent);
+  };
+  // normal_a . (to - from), times 2^-exponent.
+  const auto between = [&](const Vec3d& from, const Vec3d& to) {
+    Integer sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int e = static_cast<int>(exponent);
+      sum += plane_a.normal[k] * (dyadic(to[k]).over_power(e) - dyadic(from[k]).over_power(e));
+    }
+    return sum;
+  };
+  cover(a.translation);
+  cover(b.translation);
+  for (const Body* body : {&a, &b}) {
+    if (body->sweep) std::ranges::for_each(*body->sweep, cover);
   }
   if (exponent == Dyadic::of_zero) exponent = 0;
-  for (int k = 0; k < 3; ++k) {
-    const int e = static_cast<int>(exponent);
-    along += plane_a.normal[k] * (to[k].over_power(e) - from[k].over_power(e));
-  }
+  Integer along = between(a.translation, b.translation);
+  // What a sweep adds on the side of the other body.
+  if (a.sweep) along -= std::max(Integer(0), between((*a.sweep)[1], (*a.sweep)[0]));
+  if (b.sweep) along += std::min(Integer(0), between((*b.sweep)[1], (*b.sweep)[0]));
   along *= plane_a.denominator * plane_b.denominator * against;
   Integer offset_a = plane_a.offset * plane_b.denominator * against;
   Integer offset_b = plane_b.offset * plane_a.denominator * square;

@@ -56,6 +56,9 @@ struct Body {
   Mat3d matrix = Mat3d::Identity();
   Vec3d translation = Vec3d::Zero();  // metres
   std::optional<std::array<double, 4>> quaternion = {};
+  // With it the body is all that it covers while it moves by [0] - [1] (metres), a difference that is not
+  // rounded. No certificate has such a body.
+  std::optional<std::array<Vec3d, 2>> sweep = {};
 
   Body(const Solid& s, const Pose& pose)
       : solid(&s), matrix(pose.rotation), translation(pose.translation) {}

@@ -14,19 +14,22 @@
 //          6. Bodies that turn, cylinders, cones, ellipsoids and half-spaces get an enclosure instead:
 //             conservative advancement with the exact distance of poses that are rounded to double, less what
 //             that can change (enclosure). Contact at the start is decided for the poses that are given.
+//          7. Where contact at the start counts only if the bodies approach, the depth of b in what a covers on its
+//             way past b decides of those that begin within the tolerance (exact_approach).
 //          prove_cast makes a certificate of each answer, which another program verifies.
 // Departs: nothing is rounded but the results: `lower` down and `upper` up to doubles. A miss and a hit
 //          are exact; the bracket is 2^-80 wide before it is rounded. `toi` is its upper end, rounded. An
 //          enclosure narrows until the path in the bracket is about the tolerance, 1e-9 of the size.
 // Fails:   unknown / not_converged after 4,000 times. An enclosure is unknown where the bodies come within
 //          1e-15 of the path without a proof of either, and where curved cores are that deep in each
-//          other. Half-spaces do not turn.
+//          other. Half-spaces do not turn. Whether turning bodies approach is unsupported.
 // Cost:    about a tenth of a millisecond for boxes, some for hulls; an enclosure some tens; allocates.
 #include <optional>
 #include <vector>
 
 #include "algorithms/cast.h"
 #include "algorithms/oracle/cast/enclosure.h"
+#include "algorithms/oracle/cast/exact_approach.h"
 #include "algorithms/oracle/cast/linear_search.h"
 #include "algorithms/oracle/cast/prove_cast.h"
 #include "algorithms/oracle/numbers/dyadic.h"
@@ -44,7 +47,8 @@ bool is_polytope(ShapeKind kind) {
 
 class ExactCast final : public Cast {
  public:
-  explicit ExactCast(const CastSettings& settings) : tolerance_(settings.tolerance) {}
+  explicit ExactCast(const CastSettings& settings)
+      : tolerance_(settings.tolerance), start_(settings.start) {}
 
   void bind(std::span<const Shape> shapes) override {
     solids_.clear();
@@ -58,32 +62,53 @@ class ExactCast final : public Cast {
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const std::uint32_t a = pairs.first[i], b = pairs.second[i];
       outcomes[i] = {};
-      const bool exact = is_polytope(batch.kind_a) && is_polytope(batch.kind_b) &&
-                         !batch.motions[a].turns() && !batch.motions[b].turns();
-      if (batch.kind_b == ShapeKind::halfspace && batch.motions[b].turns()) {
+      const bool turns = batch.motions[a].turns() || batch.motions[b].turns();
+      const bool asks_approach = start_ == StartContact::approach;
+      if ((batch.kind_b == ShapeKind::halfspace && batch.motions[b].turns()) ||
+          (turns && asks_approach)) {
         outcomes[i].status = Status::unsupported;
         continue;
       }
-      if (!exact) {
-        const auto body = [&](std::uint32_t k) {
-          const std::uint32_t shape = pairs.shape_of[k];
-          return oracle::enclosed(shapes_[shape], solids_[shape], pairs.poses[k], batch.motions[k]);
-        };
-        const oracle::EnclosedBody body_a = body(a), body_b = body(b);
-        const double tolerance = tolerance_.value_or(oracle::default_tolerance(body_a, body_b));
+      const auto body = [&](std::uint32_t k) {
+        const std::uint32_t shape = pairs.shape_of[k];
+        return oracle::enclosed(shapes_[shape], solids_[shape], pairs.poses[k], batch.motions[k]);
+      };
+      const oracle::EnclosedBody body_a = body(a), body_b = body(b);
+      const double tolerance = tolerance_.value_or(oracle::default_tolerance(body_a, body_b));
+      const Body placed_a(*body_a.solid, *body_a.pose), placed_b(*body_b.solid, *body_b.pose);
+      if (is_polytope(batch.kind_a) && is_polytope(batch.kind_b) && !turns) {
+        cast(placed_a, *body_a.motion, placed_b, *body_b.motion, outcomes[i]);
+      } else {
         oracle::enclose(oracle_, body_a, body_b, tolerance, outcomes[i]);
-        continue;
       }
-      cast(Body(solids_[pairs.shape_of[a]], pairs.poses[a]), batch.motions[a],
-           Body(solids_[pairs.shape_of[b]], pairs.poses[b]), batch.motions[b], outcomes[i]);
+      if (asks_approach && oracle_.measure(placed_a, placed_b).lower <= tolerance) {
+        weigh_start(oracle::approach(oracle_, placed_a, *body_a.motion, placed_b, *body_b.motion,
+                                     tolerance),
+                    outcomes[i]);
+      }
     }
   }
 
  private:
+  // Changes the outcome of bodies that are within the tolerance of each other at the start.
+  static void weigh_start(oracle::Approach approach, CastOutcome& outcome) {
+    const std::int32_t iterations = outcome.iterations;
+    switch (approach) {
+      case oracle::Approach::no:
+        outcome = {.answer = CastAnswer::miss, .status = Status::ok, .iterations = iterations};
+        return;
+      case oracle::Approach::unknown:
+        outcome = {.status = Status::not_converged, .lower = 0, .iterations = iterations};
+        return;
+      case oracle::Approach::yes: return;
+    }
+  }
+
   static void cast(const Body& a, const Motion& motion_a, const Body& b, const Motion& motion_b,
                    CastOutcome& outcome);
 
   std::optional<double> tolerance_;
+  StartContact start_;
   std::vector<oracle::Solid> solids_;
   std::span<const Shape> shapes_;
   oracle::Oracle oracle_;
@@ -172,6 +197,7 @@ std::vector<CastEntry> oracle_exact_cast() {
                 .origin = Origin::oracle},
        .scalars = {Precision::float64},
        .rotation = true,
+       .approach = true,
        .supports = supports_exact,
        .make = [](const CastSettings& settings) { return std::make_unique<ExactCast>(settings); }}};
 }

@@ -134,6 +134,11 @@ void cast(const CastOptions& options) {
   require(options.cases, "CASES");
   require(options.casts, "--cast");
   require(options.out, "--out");
+  if (!options.saved.empty() && options.settings.start == StartContact::approach) {
+    throw base::InputError(
+        "--save-certificates: there are proofs only of casts where contact at time 0 counts; "
+        "expected --start counts");
+  }
   const auto entries = campaign::select(casts(), campaign::split_names(options.casts), "cast");
   const std::vector<files::CastCase> cases = files::read_cast_cases(options.cases);
   files::check_outputs({{"CASES", options.cases}},
@@ -181,8 +186,10 @@ void add_cast(Arguments command) {
       .show_default("counts");
   add_time_limit(command, options->time_limit).show_default();
   command.text("--out", options->out, "The CSV file to write (required)");
-  command.text("--save-certificates", options->saved,
-               "Also prove the exact answer of each case, and write the proofs to this file");
+  command.text(
+      "--save-certificates", options->saved,
+      "Also prove the exact answer of each case, where contact at time 0 counts, and write the "
+      "proofs to this file");
   command.text("--certificates", options->certificates, "Only verify the proofs in this file");
   command.exclude_others("--certificates");
   command.job([options]() -> int {

@@ -186,7 +186,8 @@ TEST_P(ApproachingCast, BodiesOnAHalfSpace) {
       const CastOutcome outcome = solve(entry(), c, settings);
       EXPECT_EQ(outcome.status, Status::ok) << c.what;
       EXPECT_EQ(outcome.answer, way == 3 ? CastAnswer::hit : CastAnswer::miss) << c.what;
-      if (way < 2) {
+      // The exact one sees what rounding left between them.
+      if (way < 2 && entry().info.origin != Origin::oracle) {
         EXPECT_EQ(counted.answer, CastAnswer::hit) << c.what;
       }
     }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "algorithms/oracle/oracle.h"
 #include "tests/algorithms/cast/linear_cast.h"
 #include "tests/algorithms/one_in.h"
 
@@ -25,6 +26,7 @@ TEST_P(LinearCastVariants, TouchingAtTheStart) {
   approach.tolerance = 1e-9;
   CastSettings always;
   always.tolerance = 1e-9;
+  oracle::Oracle oracle;
   for_each_pair_of_kinds([&](ShapeKind a, ShapeKind b) {
     for (const ContactFeature feature : features) {
       for (const double depth : {0.0, 1e-12, 1e-10, 0.1}) {
@@ -35,7 +37,12 @@ TEST_P(LinearCastVariants, TouchingAtTheStart) {
         } else {
           EXPECT_EQ(solve(entry(), c, approach).answer, CastAnswer::hit) << c.what << ": deep";
         }
-        EXPECT_EQ(solve(entry(), c, always).answer, CastAnswer::hit) << c.what;
+        // The exact one sees what rounding left between them.
+        const bool is_exact = entry().info.origin == Origin::oracle;
+        if (!is_exact || oracle.verdict({oracle::Solid(c.a), c.pose_a},
+                                        {oracle::Solid(c.b), c.pose_b}) == Answer::overlapping) {
+          EXPECT_EQ(solve(entry(), c, always).answer, CastAnswer::hit) << c.what;
+        }
         if (depth > 1e-3) continue;
         c.motion_b.displacement = c.normal;
         EXPECT_EQ(solve(entry(), c, approach).answer, CastAnswer::miss) << c.what << ": apart";

@@ -107,14 +107,21 @@ TEST_F(CastCommand, ContactAtTheStart) {
   folder.write("in.jsonl", line + "\n");
   for (const std::string start : {"counts", "approach"}) {
     const Ran ran =
-        run_program("cast " + path("in.jsonl") + " --cast gjk-ray-cast --start " + start +
+        run_program("cast " + path("in.jsonl") + " --cast gjk-ray-cast,exact --start " + start +
                     " --tolerance 1e-6 --max-iterations 50 --out " + path("out.csv"));
     ASSERT_EQ(ran.status, 0) << ran.text;
     const auto rows = read_rows(folder.path() / "out.csv", cast_columns);
-    ASSERT_EQ(rows.size(), 1u);
-    EXPECT_EQ(rows[0][3], start == "counts" ? "hit" : "miss");
-    EXPECT_EQ(rows[0][5], start == "counts" ? "0" : "");
+    ASSERT_EQ(rows.size(), 2u);
+    for (const auto& row : rows) {
+      EXPECT_EQ(row[3], start == "counts" ? "hit" : "miss");
+      EXPECT_EQ(row[5], start == "counts" ? "0" : "");
+    }
   }
+  const Ran unproven =
+      run_program("cast " + path("in.jsonl") + " --cast exact --start approach --out " +
+                  path("out.csv") + " --save-certificates " + path("proofs.jsonl"));
+  EXPECT_EQ(unproven.status, 2);
+  EXPECT_THAT(unproven.text, testing::HasSubstr("expected --start counts"));
 }
 
 TEST_F(CastCommand, CertificatesAreSavedAndVerified) {

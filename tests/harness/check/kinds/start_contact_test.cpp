@@ -50,7 +50,7 @@ TEST(StartContact, AWrongVerdictFromATouchIsSeen) {
 }
 
 TEST(StartContact, OursTellWhatBodiesDoAfterATouch) {
-  for (const char* name : {"gjk-ray-cast", "gjk-ray-cast-lanes", "mpr-ray-cast"}) {
+  for (const char* name : {"gjk-ray-cast", "gjk-ray-cast-lanes", "mpr-ray-cast", "exact"}) {
     for (const CaseForm form : {CaseForm::as_drawn, CaseForm::swapped, CaseForm::scaled}) {
       const FamilyCount count =
           count_of("casts-from-touch", cast_of(*find_cast(name), StartContact::approach), form,
