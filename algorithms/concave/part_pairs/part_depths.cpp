@@ -1,4 +1,4 @@
-// Depths of pairs of parts. The nearest point tells that of a ball under a triangle, GJK and EPA in
+// Depths of pairs of parts. The nearest points tell that of a sphere or capsule at a triangle, GJK and EPA in
 // doubles most others, with bounds that hold beyond their rounding. A narrow phase that proves more takes
 // several times as long to prepare two shapes.
 #include "algorithms/concave/part_pairs/part_depths.h"
@@ -9,6 +9,7 @@
 #include "algorithms/core/bounds.h"
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/kernels/rays/points/closest_of.h"
+#include "algorithms/kernels/triangles/triangle_distance.h"
 
 namespace touchstone {
 
@@ -52,47 +53,68 @@ void PartDepths::place(const PlacedConcave& body, std::uint32_t part, Side& side
   }
   const std::size_t number = first_part_[body.body] + part;
   side.shape = &parts_[number];
+  side.half_length =
+      side.shape->core == SupportCore::segment ? bound.given->parts[part].shape.half_length : 0;
   side.placed = bound.place(body.pose, part, reaches_[number]);
 }
 
-// The depth of a ball under a triangle is the radius less the distance of its centre, which the nearest
-// point bounds from above, and the plane across the way to it from below.
-bool PartDepths::find_depth_of_ball(const Side& ball, const Side& triangle, Outcome& outcome) {
+// The depth is the radius less the distance of the centre, or of the segment, which the nearest points bound from
+// above, and the plane across the way between them from below. A segment that does not cross an edge of the triangle, seen
+// along that way, is nearest with an end.
+bool PartDepths::find_depth_of_round(const Side& round, const Side& triangle, Outcome& outcome) {
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   constexpr double least_part = 0x1p-20;  // of the reach: a shorter way has no direction
-  const Vec3d centre = ball.placed.pose.translation;
+  const Pose& pose = round.placed.pose;
+  const Vec3d axis = pose.rotation.col(2) * round.half_length;
+  const Segment core = {pose.translation - axis, pose.translation + axis};
   TriangleCorners corners = triangle.corners;
   const double stretch = std::max(1.0, triangle.placed.pose.rotation.cwiseAbs().maxCoeff());
-  double reach = centre.cwiseAbs().maxCoeff();
+  double reach = pose.translation.cwiseAbs().maxCoeff() + axis.cwiseAbs().maxCoeff();
   for (Vec3d& corner : corners) {
     const double along = stretch * corner.cwiseAbs().maxCoeff();
     corner = triangle.placed.pose(corner);
     reach = std::max({reach, along, corner.cwiseAbs().maxCoeff()});
   }
-  const Vec3d nearest = closest_of(centre, corners);
-  const Vec3d way = centre - nearest;
-  const double distance = way.norm(), error = rounding * reach;
-  if (!(distance > least_part * reach)) return false;
-  outcome.normal = way / distance;
-  double lower = std::numeric_limits<double>::infinity();
-  for (const Vec3d& corner : corners) lower = std::min(lower, outcome.normal.dot(centre - corner));
-  const double radius = ball.shape->radius;
-  outcome.lower = lower - error - radius;
-  outcome.upper = distance + error - radius;
-  outcome.distance = distance - radius;
-  outcome.witness_a = nearest;
-  outcome.witness_b = centre - radius * outcome.normal;
+  const double error = rounding * reach, radius = round.shape->radius;
+  const auto is_proven = [&](const TriangleDistance& nearest) {
+    const Vec3d way = nearest.on_a - nearest.on_b;
+    if (!(nearest.distance > least_part * reach)) return false;
+    outcome.normal = way / nearest.distance;
+    double above = std::numeric_limits<double>::infinity(), below = -above;
+    for (const Vec3d& end : core) above = std::min(above, outcome.normal.dot(end - nearest.on_b));
+    for (const Vec3d& corner : corners)
+      below = std::max(below, outcome.normal.dot(corner - nearest.on_b));
+    outcome.lower = above - below - error - radius;
+    outcome.upper = nearest.distance + error - radius;
+    outcome.distance = nearest.distance - radius;
+    outcome.witness_a = nearest.on_b;
+    outcome.witness_b = nearest.on_a - radius * outcome.normal;
+    return outcome.upper - outcome.lower < 4 * error;
+  };
+  TriangleDistance nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  for (const Vec3d& end : core) {
+    const Vec3d on_triangle = closest_of(end, corners);
+    const double distance = (end - on_triangle).norm();
+    if (distance < nearest.distance) nearest = {end, on_triangle, distance};
+    if (round.half_length == 0) break;
+  }
+  if (!is_proven(nearest) &&
+      (round.half_length == 0 || !is_proven(distance_to_edges(core, corners)))) {
+    return false;
+  }
   outcome.answer = Answer::overlapping;
   outcome.status = Status::ok;
-  return outcome.upper - outcome.lower < 4 * error && outcome.upper < -ball.placed.error;
+  return outcome.upper < -round.placed.error;
 }
 
 bool PartDepths::find_depth(Outcome& outcome) {
   outcome = {};
   for (const bool is_first : {true, false}) {
-    const Side &ball = is_first ? a_ : b_, &triangle = is_first ? b_ : a_;
-    if (ball.shape == nullptr || ball.shape->core != SupportCore::point) continue;
-    if (triangle.shape != nullptr || !find_depth_of_ball(ball, triangle, outcome)) continue;
+    const Side &round = is_first ? a_ : b_, &triangle = is_first ? b_ : a_;
+    if (round.shape == nullptr || triangle.shape != nullptr) continue;
+    if (round.shape->core > SupportCore::segment) continue;
+    if (!find_depth_of_round(round, triangle, outcome)) continue;
     if (is_first) outcome = swapped(outcome);
     return true;
   }

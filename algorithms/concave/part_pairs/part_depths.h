@@ -43,12 +43,13 @@ class PartDepths {
   struct Side {
     std::uint32_t part = none;
     const SupportShape<double>* shape = nullptr;  // null: a triangle that is not prepared yet
+    double half_length = 0;                       // of a capsule (metres)
     TriangleCorners corners = {};                 // of a triangle, in the body's coordinates
     ComposedPose placed = {};
     Triangle triangle;
   };
-  // These return true if the parts surely overlap. The normal is from the triangle to the ball.
-  static bool find_depth_of_ball(const Side& ball, const Side& triangle, Outcome& outcome);
+  // These return true if the parts surely overlap. The normal is from the triangle to the sphere or capsule.
+  static bool find_depth_of_round(const Side& round, const Side& triangle, Outcome& outcome);
   bool find_depth(Outcome& outcome);
   void place(const PlacedConcave& body, std::uint32_t part, Side& side) const;
 

@@ -102,6 +102,7 @@ CommonFrame world_frame(const Pose& a, double reach_a, const Pose& b, double rea
 }
 
 ComposedPose composed(const Pose& outer, const Pose& inner, double reach) {
+  if (inner.rotation == Mat3d::Identity() && inner.translation.isZero(0)) return {outer, 0};
   ComposedPose result;
   bool exact = true;
   for (int row = 0; row < 3; ++row) {

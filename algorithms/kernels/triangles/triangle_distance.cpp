@@ -87,6 +87,17 @@ TriangleDistance triangle_distance(const TriangleCorners& a, const TriangleCorne
   return best;
 }
 
+TriangleDistance distance_to_edges(const Segment& segment, const TriangleCorners& triangle) {
+  TriangleDistance best = {segment[0], triangle[0], (segment[0] - triangle[0]).norm()};
+  const Vec3d u = segment[1] - segment[0];
+  for (int k = 0; k < 3; ++k) {
+    const Vec3d v = triangle[(k + 1) % 3] - triangle[k];
+    const Along at = nearest_on_segments(segment[0], u, triangle[k], v);
+    keep_nearer(best, segment[0] + u * at.s, triangle[k] + v * at.t);
+  }
+  return best;
+}
+
 double distance_bound(const TriangleCorners& a, const TriangleCorners& b,
                       const TriangleDistance& nearest) {
   const Vec3d way = nearest.on_b - nearest.on_a;

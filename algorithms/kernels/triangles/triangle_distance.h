@@ -17,6 +17,10 @@ struct TriangleDistance {
 // the triangles in any case, so that the triangles are not further apart.
 TriangleDistance triangle_distance(const TriangleCorners& a, const TriangleCorners& b);
 
+// The nearest points of a segment and the edges of a triangle, with the same promises; `on_a` is on the segment.
+using Segment = std::array<Vec3d, 2>;
+TriangleDistance distance_to_edges(const Segment& segment, const TriangleCorners& triangle);
+
 // A distance that the triangles have at least, but for the rounding of its last few sums: the
 // greatest gap along the line of the nearest points and the axes on which the distance of triangles
 // is one between parallel planes.
