@@ -2,9 +2,11 @@
 #include "algorithms/moving_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/kernels/motion/moving_boxes.h"
@@ -13,33 +15,14 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t bodies_a_block = 256;
-constexpr std::size_t pairs_a_block = 1024;
+// Small, so that two workers share what a scene of a few hundred bodies has.
+constexpr std::size_t bodies_a_block = 64;
+constexpr std::size_t pairs_a_block = 64;
 // Bodies of the sample, each of which is tested against so many others at least, or a part of them.
 constexpr std::size_t sampled = 16;
+constexpr std::size_t sampled_a_block = 2;
 constexpr std::size_t least_others = 512;
 constexpr std::size_t others_part = 32;
-
-// The number of pairs that a search on the boxes swept in the middle one of so many parts finds, as
-// a sample has it.
-double expected_candidates(std::span<const MovingBox> bodies, int parts) {
-  const std::size_t count = bodies.size();
-  const std::size_t others = std::min(count, std::max(least_others, count / others_part));
-  const std::size_t own = std::min(sampled, others);
-  const double begin = static_cast<double>(parts / 2) / parts;
-  const double end = begin + 1.0 / parts;
-  std::vector<Aabb> boxes(others);
-  for (std::size_t i = 0; i < others; ++i)
-    boxes[i] = swept_box_of(bodies[i * count / others], begin, end);
-  std::size_t overlaps = 0;
-  for (std::size_t k = 0; k < own; ++k) {
-    const std::size_t i = k * others / own;
-    for (std::size_t j = 0; j < others; ++j) overlaps += i != j && overlap(boxes[i], boxes[j]);
-  }
-  const double all = static_cast<double>(count);
-  return static_cast<double>(overlaps) / 2 * (all / static_cast<double>(own)) *
-         (all / static_cast<double>(others));
-}
 
 }  // namespace
 
@@ -49,7 +32,35 @@ MovingBox moving_box(const Shape& shape, const Pose& pose, const Motion& motion)
 
 Aabb swept_box(const MovingBox& body) { return swept_box_of(body, 0, 1); }
 
-int MovingPairs::cheapest_parts(std::span<const MovingBox> bodies) const {
+// The number of pairs that a search on the boxes swept in the middle one of so many parts finds, as
+// a sample has it.
+double MovingPairs::expected_candidates(std::span<const MovingBox> bodies, int parts) {
+  const std::size_t count = bodies.size();
+  const std::size_t others = std::min(count, std::max(least_others, count / others_part));
+  const std::size_t own = std::min(sampled, others);
+  const double begin = static_cast<double>(parts / 2) / parts;
+  const double end = begin + 1.0 / parts;
+  sample_.resize(others);
+  for_each_block(*executor_, others, bodies_a_block,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i)
+                     sample_[i] = swept_box_of(bodies[i * count / others], begin, end);
+                 });
+  std::array<std::size_t, sampled> overlaps{};
+  for_each_block(*executor_, own, sampled_a_block,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t k = first; k < last; ++k) {
+                     const std::size_t i = k * others / own;
+                     for (std::size_t j = 0; j < others; ++j)
+                       overlaps[k] += i != j && overlap(sample_[i], sample_[j]);
+                   }
+                 });
+  const double all = static_cast<double>(count);
+  return static_cast<double>(std::accumulate(overlaps.begin(), overlaps.end(), std::size_t{0})) /
+         2 * (all / static_cast<double>(own)) * (all / static_cast<double>(others));
+}
+
+int MovingPairs::cheapest_parts(std::span<const MovingBox> bodies) {
   if (bodies.empty()) return 1;
   const double boxes = box_cost * static_cast<double>(bodies.size());
   int best = 1;

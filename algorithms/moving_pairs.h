@@ -51,7 +51,8 @@ class MovingPairs {
   std::size_t candidates() const { return candidates_; }
 
  private:
-  int cheapest_parts(std::span<const MovingBox> bodies) const;
+  double expected_candidates(std::span<const MovingBox> bodies, int parts);
+  int cheapest_parts(std::span<const MovingBox> bodies);
   void sweep(std::span<const MovingBox> bodies, int part);
   void keep_new(std::span<const MovingBox> bodies, int part, std::vector<IndexPair>& pairs);
 
@@ -61,6 +62,7 @@ class MovingPairs {
   int parts_ = 1;
   std::size_t candidates_ = 0;
   std::vector<std::vector<Aabb>> swept_;  // for each part
+  std::vector<Aabb> sample_;
   PairSink found_, kept_;
 };
 
