@@ -51,6 +51,9 @@ struct Cell {
 struct PlannedCell {
   std::string group, name;     // the group's cells are one table
   std::function<Cell()> make;  // the same cell each time
+  // Its rounds are those of the cell before it, as where only threads differ, so that the ratio of both holds
+  // whatever else the machine does meanwhile.
+  bool joins_last = false;
 };
 
 }  // namespace touchstone::cells

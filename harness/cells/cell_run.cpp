@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 #include "harness/base/clock.h"
 #include "harness/base/hash.h"
@@ -51,9 +51,27 @@ std::vector<Graded> grade(const Cell& cell, double time_limit) {
   return graded;
 }
 
-std::vector<std::size_t> shuffled(std::vector<std::size_t> order, base::Random random) {
+// A contestant of one of the cells that share their rounds.
+struct Timed {
+  const PlannedCell* planned;
+  const Contestant* contestant;
+  std::int64_t queries;
+  double seconds;  // of one answer to all queries
+};
+
+std::vector<Timed> shuffled(std::vector<Timed> order, base::Random random) {
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
   return order;
+}
+
+// The cells, each with those that join it.
+std::vector<std::span<const PlannedCell>> with_joined(std::span<const PlannedCell> cells) {
+  std::vector<std::span<const PlannedCell>> all;
+  for (std::size_t first = 0, end = 1; first < cells.size(); first = end, ++end) {
+    while (end < cells.size() && cells[end].joins_last) ++end;
+    all.push_back(cells.subspan(first, end - first));
+  }
+  return all;
 }
 
 class CellRun {
@@ -65,11 +83,13 @@ class CellRun {
   CellRunResult run(const std::function<void(const std::string&)>& say) {
     const process::InterruptGuard guard;
     note_earlier_grades();
-    for (std::size_t i = static_cast<std::size_t>(folder_.units()); i < request_.cells.size();
-         ++i) {
-      const PlannedCell& planned = request_.cells[i];
-      say(fmt::format("[{}/{}] {}, {}", i + 1, request_.cells.size(), planned.group, planned.name));
-      if (!measure(planned, i)) {
+    const std::vector<std::span<const PlannedCell>> all = with_joined(request_.cells);
+    for (std::size_t i = static_cast<std::size_t>(folder_.units()); i < all.size(); ++i) {
+      for (const PlannedCell& planned : all[i]) {
+        say(fmt::format("[{}/{}] {}, {}", &planned - request_.cells.data() + 1,
+                        request_.cells.size(), planned.group, planned.name));
+      }
+      if (!measure(all[i], i)) {
         result_.interrupted = true;
         return result_;
       }
@@ -94,7 +114,7 @@ class CellRun {
     plan.identity.insert(plan.identity.end(), request.identity.begin(), request.identity.end());
     for (auto& fact : record::machine_facts()) plan.identity.push_back(std::move(fact));
     plan.start = start;
-    plan.removed = {"times.csv", "best.csv", "tables.md"};
+    plan.removed = {"times.csv", "best.csv", "speed_ups.csv", "tables.md"};
     return plan;
   }
 
@@ -107,23 +127,33 @@ class CellRun {
   }
 
   // Returns false if it was interrupted.
-  bool measure(const PlannedCell& planned, std::size_t number) {
-    const Cell cell = planned.make();
-    const std::vector<Graded> graded = grade(cell, request_.time_limit);
-    std::vector<std::size_t> timed;
-    for (std::size_t i = 0; i < graded.size(); ++i) {
-      write_grade(planned, cell, cell.contestants[i], graded[i]);
-      if (graded[i].state == process::ItemState::done && graded[i].seconds <= request_.time_limit)
-        timed.push_back(i);
+  bool measure(std::span<const PlannedCell> joined, std::size_t number) {
+    std::vector<Cell> cells;
+    for (const PlannedCell& planned : joined) cells.push_back(planned.make());
+    std::vector<Timed> timed;
+    for (std::size_t k = 0; k < joined.size(); ++k) {
+      const PlannedCell& planned = joined[k];
+      const Cell& cell = cells[k];
+      const std::vector<Graded> graded = grade(cell, request_.time_limit);
+      for (std::size_t i = 0; i < graded.size(); ++i) {
+        const Contestant& contestant = cell.contestants[i];
+        write_grade(planned, cell, contestant, graded[i]);
+        if (graded[i].state == process::ItemState::done && graded[i].seconds <= request_.time_limit)
+          timed.push_back({&planned, &contestant, cell.queries, graded[i].seconds});
+      }
+      for (const LeftOut& left_out : cell.left_out) write_left_out(planned, cell, left_out);
     }
-    for (const LeftOut& left_out : cell.left_out) write_left_out(planned, cell, left_out);
-    for (const std::size_t i : timed) {
-      if (cell.contestants[i].prepare) cell.contestants[i].prepare();
-      cell.contestants[i].answer();  // what is cold is not timed
+    // What is cold is not timed, and takes longer than the samples, so that it would cut them short.
+    for (Timed& one : timed) {
+      if (one.contestant->prepare) one.contestant->prepare();
+      one.contestant->answer();
+      const base::Stopwatch watch;
+      one.contestant->answer();
+      one.seconds = std::min(one.seconds, watch.seconds());
     }
     for (int round = 0; round < request_.rounds; ++round) {
       if (process::InterruptGuard::raised()) return false;
-      time_round(planned, cell, graded, round,
+      time_round(round,
                  shuffled(timed, base::Random(request_.seed, number << 16 | unsigned(round))));
     }
     return true;
@@ -164,25 +194,24 @@ class CellRun {
     folder_.write(grades_file, row);
   }
 
-  void time_round(const PlannedCell& planned, const Cell& cell, const std::vector<Graded>& graded,
-                  int round, const std::vector<std::size_t>& order) {
+  void time_round(int round, const std::vector<Timed>& order) {
     const measure::NoiseReading before = measure::NoiseReading::now();
     const base::Stopwatch whole;
     std::vector<stats::CellSampleRow> rows;
     for (std::size_t position = 0; position < order.size(); ++position) {
-      const std::size_t i = order[position];
+      const Timed& one = order[position];
       stats::CellSampleRow row;
-      row.group = planned.group;
-      row.cell = planned.name;
-      row.algorithm = cell.contestants[i].name;
+      row.group = one.planned->group;
+      row.cell = one.planned->name;
+      row.algorithm = one.contestant->name;
       row.round = round;
       row.position = static_cast<std::int64_t>(position);
-      row.repeats = static_cast<std::int64_t>(std::clamp(
-          std::ceil(request_.sample_seconds / std::max(graded[i].seconds, 1e-7)), 1.0, 1e6));
+      row.repeats = static_cast<std::int64_t>(
+          std::clamp(std::ceil(request_.sample_seconds / std::max(one.seconds, 1e-7)), 1.0, 1e6));
       const base::Stopwatch watch;
-      for (std::int64_t k = 0; k < row.repeats; ++k) cell.contestants[i].answer();
+      for (std::int64_t k = 0; k < row.repeats; ++k) one.contestant->answer();
       row.seconds = watch.seconds() / static_cast<double>(row.repeats) /
-                    static_cast<double>(std::max<std::int64_t>(cell.queries, 1));
+                    static_cast<double>(std::max<std::int64_t>(one.queries, 1));
       rows.push_back(row);
     }
     const std::string noise =

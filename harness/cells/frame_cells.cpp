@@ -1,5 +1,5 @@
 // Frames of broad phases of which most bodies rest: what a frame costs that asks for all pairs, for
-// those that began and ended, or for those of the bodies that moved.
+// those that began and ended, or for those of the bodies that moved; and for all pairs of boxes that are built anew.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 namespace touchstone::cells {
 namespace {
 
-enum class Question : std::uint8_t { pairs, changes, moved };
-constexpr std::array<std::string_view, 3> question_names = {"pairs", "changes", "moved"};
+enum class Question : std::uint8_t { pairs, changes, moved, built };
+constexpr std::array<std::string_view, 4> question_names = {"pairs", "changes", "moved", "built"};
 
 using Pairs = std::vector<IndexPair>;
 
@@ -96,7 +96,11 @@ class LoopPlayer {
   template <class Visit>
   void play(const Visit& visit) {
     for (std::size_t i = 0; i < loop_->frames.size(); ++i) {
-      algorithm_->update(loop_->change(loop_->frames[i]));
+      if (question_ == Question::built) {
+        algorithm_->build(loop_->boxes[loop_->frames[i].boxes]);
+      } else {
+        algorithm_->update(loop_->change(loop_->frames[i]));
+      }
       visit(i, ask(loop_->frames[i]));
     }
   }
@@ -124,7 +128,8 @@ class LoopPlayer {
  private:
   Status ask(const Frame& frame) {
     switch (question_) {
-      case Question::pairs: return algorithm_->find_pairs(pairs_);
+      case Question::pairs:
+      case Question::built: return algorithm_->find_pairs(pairs_);
       case Question::changes: return algorithm_->find_changes(pairs_, ended_);
       case Question::moved: return algorithm_->find_pairs_of(frame.fresh, pairs_);
     }
@@ -260,15 +265,15 @@ std::vector<PlannedCell> frame_cells(files::TomlTable& table, const std::filesys
   const auto last = std::make_shared<LastLoop>();
   std::vector<PlannedCell> cells;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    for (const std::int64_t width : threads) {
-      for (const std::size_t question : questions) {
+    for (const std::size_t question : questions) {
+      for (const std::int64_t width : threads) {
         const std::string name = fmt::format("{}{}", question_names[question],
                                              width > 1 ? fmt::format(", {} threads", width) : "");
-        cells.push_back({sources[i].name(), name, [=, source = sources[i]] {
-                           return make_frame_cell(last->of(source, i),
-                                                  static_cast<Question>(question),
-                                                  static_cast<int>(width), entries);
-                         }});
+        const auto make = [=, source = sources[i]] {
+          return make_frame_cell(last->of(source, i), static_cast<Question>(question),
+                                 static_cast<int>(width), entries);
+        };
+        cells.push_back({sources[i].name(), name, make, width != threads.front()});
       }
     }
   }

@@ -261,7 +261,8 @@ std::vector<PlannedCell> plan_motion(const MotionRequest& request) {
       if (overrides.seed != -1) group += fmt::format(", seed {}", overrides.seed);
       for (const int threads : request.threads) {
         cells.push_back({group, fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"),
-                         [=] { return make_motion_cell(scene, request, threads, most_threads); }});
+                         [=] { return make_motion_cell(scene, request, threads, most_threads); },
+                         threads != request.threads.front()});
       }
     }
   }

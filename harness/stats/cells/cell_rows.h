@@ -97,4 +97,23 @@ void columns(Row& row, Visit visit) {
   visit("ratio_high", record::rounded(row.high, 4), "Upper end.");
 }
 
+// speed_ups.csv of a cell run: an algorithm at several threads, against itself at one.
+struct CellSpeedUpRow {
+  std::string group, cell, algorithm, origin;
+  std::int64_t threads = 0;
+  double speed_up = Outcome::none, low = Outcome::none, high = Outcome::none;
+};
+template <record::row_of<CellSpeedUpRow> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("group", row.group, "Group of cells, one table.");
+  visit("cell", row.cell, "Name of the cell, without the threads.");
+  visit("algorithm", row.algorithm, "Name of the algorithm, with the scalar where it has several.");
+  visit("origin", row.origin, "ours, peer or oracle.");
+  visit("threads", row.threads, "Threads.");
+  visit("speed_up", record::rounded(row.speed_up, 4),
+        "Time at one thread over that at these: the median of rounds that both share.");
+  visit("speed_up_low", record::rounded(row.low, 4), "Lower end of its interval at 95 %.");
+  visit("speed_up_high", record::rounded(row.high, 4), "Upper end.");
+}
+
 }  // namespace touchstone::stats

@@ -5,97 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
+#include <vector>
 
 #include "harness/base/table.h"
 #include "harness/files/text_file.h"
 #include "harness/record/facts.h"
 #include "harness/record/row.h"
 #include "harness/stats/cells/cell_rows.h"
-#include "harness/stats/statistics.h"
+#include "harness/stats/cells/cell_speed_ups.h"
+#include "harness/stats/cells/cell_times.h"
 
 namespace touchstone::stats {
 namespace {
-
-constexpr double cell_confidence = 0.95;
-
-using Name = std::pair<std::string, std::string>;  // group, cell
-
-struct CellTimes {
-  Name name;
-  std::vector<CellTimeRow> rows;                        // in the order of the grades
-  std::map<std::string, std::vector<double>> by_round;  // seconds of each algorithm
-  std::optional<CellBestRow> best;
-};
-
-// The place of the fastest of an origin that is right and was timed.
-std::optional<std::size_t> fastest(const CellTimes& cell, std::string_view origin) {
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < cell.rows.size(); ++i) {
-    const CellTimeRow& row = cell.rows[i];
-    if (row.grade.origin != origin || row.grade.status != "ok" || !row.grade.is_right() ||
-        std::isnan(row.seconds))
-      continue;
-    if (!best || row.seconds < cell.rows[*best].seconds) best = i;
-  }
-  return best;
-}
-
-void compare(CellTimes& cell) {
-  const std::optional<std::size_t> ours = fastest(cell, "ours"), peer = fastest(cell, "peer");
-  if (ours) cell.rows[*ours].best = true;
-  if (peer) cell.rows[*peer].best = true;
-  if (!ours) return;
-  CellBestRow& best = cell.best.emplace();
-  best.group = cell.name.first;
-  best.cell = cell.name.second;
-  best.ours = cell.rows[*ours].grade.algorithm;
-  if (!peer) return;
-  best.peer = cell.rows[*peer].grade.algorithm;
-  const std::vector<double>&a = cell.by_round[best.ours], &b = cell.by_round[best.peer];
-  std::vector<double> logs;
-  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-    logs.push_back(std::log(b[k] / a[k]));
-  const MedianInterval ratio = exponential(median_interval(logs, cell_confidence));
-  best.ratio = ratio.median;
-  best.low = ratio.low;
-  best.high = ratio.high;
-}
-
-std::vector<CellTimes> read_times(const std::filesystem::path& folder) {
-  std::vector<CellTimes> cells;
-  std::map<Name, std::size_t> place;
-  for (const GradeRow& row : record::read_rows<GradeRow>(folder / "grades.csv")) {
-    const Name name{row.group, row.cell};
-    const auto [at, is_new] = place.emplace(name, cells.size());
-    if (is_new) cells.push_back({name, {}, {}, {}});
-    cells[at->second].rows.emplace_back().grade = row;
-  }
-  // A disturbed round counts where all were disturbed, since a ratio within a round still holds.
-  std::map<Name, std::vector<CellSampleRow>> quiet, all;
-  for (const CellSampleRow& row : record::read_rows<CellSampleRow>(folder / "raw.csv")) {
-    all[{row.group, row.cell}].push_back(row);
-    if (row.noise.empty()) quiet[{row.group, row.cell}].push_back(row);
-  }
-  for (CellTimes& cell : cells) {
-    const std::vector<CellSampleRow>& own = all[cell.name];
-    const std::vector<CellSampleRow>& still = quiet[cell.name];
-    for (const CellSampleRow& row : 2 * still.size() >= own.size() ? still : own)
-      cell.by_round[row.algorithm].push_back(row.seconds);
-    for (CellTimeRow& row : cell.rows) {
-      const std::vector<double>& seconds = cell.by_round[row.grade.algorithm];
-      row.samples = std::ssize(seconds);
-      if (seconds.empty()) continue;
-      const MedianInterval time = median_interval(seconds, cell_confidence);
-      row.seconds = time.median;
-      row.low = time.low;
-      row.high = time.high;
-    }
-    compare(cell);
-  }
-  return cells;
-}
 
 std::string time_cell(double seconds) {
   if (std::isnan(seconds)) return "-";
@@ -135,6 +56,17 @@ std::string table_of(const CellTimes& cell) {
   return table.markdown();
 }
 
+std::string speed_up_section(const std::vector<CellSpeedUpRow>& speed_ups) {
+  if (speed_ups.empty()) return "";
+  base::Table table({"cell", "algorithm", "threads", "speed-up", "95 % interval"}, 2);
+  for (const CellSpeedUpRow& row : speed_ups) {
+    table.add({row.cell.empty() ? row.group : row.group + ", " + row.cell, row.algorithm,
+               std::to_string(row.threads), fmt::format("{:.3g}", row.speed_up),
+               fmt::format("{:.3g} to {:.3g}", row.low, row.high)});
+  }
+  return fmt::format("## Several threads against one\n\n{}\n", table.markdown());
+}
+
 // The facts of the folder's machine of these names, as a list in Markdown.
 std::string facts_of(const std::filesystem::path& folder) {
   const record::Facts facts = record::read_facts(folder / "machine.csv");
@@ -149,7 +81,7 @@ std::string facts_of(const std::filesystem::path& folder) {
 
 std::string write_cell_tables(const std::filesystem::path& folder, const std::string& name,
                               const std::filesystem::path& out) {
-  const std::vector<CellTimes> cells = read_times(folder);
+  const std::vector<CellTimes> cells = read_cell_times(folder);
   std::vector<CellTimeRow> times;
   std::vector<CellBestRow> bests;
   base::Table best({"cell", "fastest of ours that is right", "fastest peer that is right",
@@ -179,6 +111,8 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
   }
   record::write_rows(out / "times.csv", times);
   record::write_rows(out / "best.csv", bests);
+  const std::vector<CellSpeedUpRow> speed_ups = cell_speed_ups(cells);
+  if (!speed_ups.empty()) record::write_rows(out / "speed_ups.csv", speed_ups);
   files::write_text(
       out / "tables.md",
       fmt::format(
@@ -186,8 +120,8 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
           "once, "
           "in shuffled order; intervals are those of the sign test at\n95 %. All answers were held "
           "against exact ones before. Bold: the fastest of ours, and of the peers, with no wrong "
-          "answer.\n\n## Ours against the libraries\n\n{}\n{}",
-          name, facts_of(folder), best.markdown(), sections));
+          "answer.\n\n## Ours against the libraries\n\n{}\n{}{}",
+          name, facts_of(folder), best.markdown(), speed_up_section(speed_ups), sections));
   return best.text(base::page_width());
 }
 

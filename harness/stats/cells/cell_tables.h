@@ -6,8 +6,8 @@
 
 namespace touchstone::stats {
 
-// Writes times.csv, best.csv and tables.md into `out` from the rows in the folder, and returns a summary
-// for the screen. Throws InputError with file and line.
+// Writes times.csv, best.csv and tables.md into `out` from the rows in the folder, and speed_ups.csv where cells
+// differ in threads alone, and returns a summary for the screen. Throws InputError with file and line.
 std::string write_cell_tables(const std::filesystem::path& folder, const std::string& name,
                               const std::filesystem::path& out);
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "harness/base/error.h"
@@ -156,7 +157,7 @@ TEST(Cells, OfFramesOfBroadPhases) {
       folder,
       "kind = \"frames\"\nscenes = [\"resting.toml\", \"churn.toml\"]\nmoving = [0.1, 0.5]\n"
       "frames = 5\nthreads = [1, 2]\n");
-  ASSERT_EQ(request.cells.size(), 2U * 2 * 2 * 3);
+  ASSERT_EQ(request.cells.size(), 2U * 2 * 2 * 4);
   const Ran ran = run(request, folder.path() / "out");
   expect_sound(ran, request.cells.size());
   std::map<std::string, std::int64_t> told;
@@ -168,6 +169,21 @@ TEST(Cells, OfFramesOfBroadPhases) {
   EXPECT_LT(told["changes"], told["moved"]);
   EXPECT_LT(told["moved"], told["pairs"]);
   EXPECT_EQ(told["moved"], told["moved, 2 threads"]);
+  EXPECT_EQ(told["built"], told["pairs"]);
+  // Both widths share their rounds.
+  const std::filesystem::path out = folder.path() / "out";
+  std::set<std::int64_t> places;
+  std::size_t samples = 0;
+  for (const auto& row : record::read_rows<stats::CellSampleRow>(out / "raw.csv")) {
+    if (row.round != 0 || row.group != ran.grades.front().group) continue;
+    if (row.cell != "pairs" && row.cell != "pairs, 2 threads") continue;
+    ++samples;
+    places.insert(row.position);
+  }
+  EXPECT_GT(samples, 10U);
+  EXPECT_EQ(places.size(), samples);
+  EXPECT_EQ(record::read_rows<stats::CellSpeedUpRow>(out / "speed_ups.csv").size(),
+            ran.grades.size() / 2);
 }
 
 // Alone, triangles push bodies aside; welded, none does.
@@ -278,7 +294,8 @@ TEST(Cells, FilesOfQueriesOfOneNameAreToldApart) {
 }
 
 TEST(Cells, OfTheProjectsFilesAreRead) {
-  for (const char* name : {"rays", "casts", "ccd", "concave", "motion", "sliding", "frames"}) {
+  for (const char* name :
+       {"rays", "casts", "ccd", "concave", "motion", "sliding", "frames", "frames_two_threads"}) {
     const auto request = cells::read_cells(std::filesystem::path(project_folder) /
                                            "datasets/campaigns" / (std::string(name) + ".toml"));
     EXPECT_EQ(request.name, name);
@@ -291,6 +308,7 @@ TEST(Columns, OfCellsAreDocumented) {
   expect_documented("raw.csv of cells", record::column_docs<stats::CellSampleRow>());
   expect_documented("times.csv of cells", record::column_docs<stats::CellTimeRow>());
   expect_documented("best.csv of cells", record::column_docs<stats::CellBestRow>());
+  expect_documented("speed_ups.csv of cells", record::column_docs<stats::CellSpeedUpRow>());
   expect_documented("points.csv of motion", record::column_docs<cells::MotionPointRow>());
 }
 

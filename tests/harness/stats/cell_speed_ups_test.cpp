@@ -1,0 +1,50 @@
+// Tests what several threads bring, of cells that differ in them alone.
+#include "harness/stats/cells/cell_speed_ups.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace touchstone {
+namespace {
+
+stats::CellTimes cell(const std::string& group, const std::string& name,
+                      const std::vector<double>& seconds, std::int64_t missed = 0) {
+  stats::CellTimes times;
+  times.name = {group, name};
+  stats::CellTimeRow& row = times.rows.emplace_back();
+  row.grade.group = group;
+  row.grade.cell = name;
+  row.grade.algorithm = "tree";
+  row.grade.origin = "ours";
+  row.grade.missed = missed;
+  times.by_round["tree"] = seconds;
+  return times;
+}
+
+TEST(CellSpeedUps, AreMediansOfRoundsThatBothShare) {
+  const std::vector<stats::CellTimes> cells = {
+      cell("one", "pairs", {4, 6, 8, 4, 4, 4}), cell("one", "pairs, 2 threads", {2, 3, 4, 2, 1, 8}),
+      cell("one", "pairs, 3 threads", {1, 1, 1, 1, 1, 1}, 1),
+      cell("two", "1 thread", {3, 3, 3, 3, 3, 3}), cell("two", "4 threads", {1, 1, 1, 1, 1, 1}),
+      // Neither has one to compare with.
+      cell("three", "moved, 2 threads", {1, 1, 1, 1, 1, 1}), cell("three", "pairs", {1, 1, 1, 1}),
+      cell("four", "about threads", {1, 1, 1, 1})};
+  const std::vector<stats::CellSpeedUpRow> rows = stats::cell_speed_ups(cells);
+  ASSERT_EQ(rows.size(), 2U) << "what is wrong has no row";
+  EXPECT_EQ(rows[0].group, "one");
+  EXPECT_EQ(rows[0].cell, "pairs");
+  EXPECT_EQ(rows[0].algorithm, "tree");
+  EXPECT_EQ(rows[0].threads, 2);
+  EXPECT_NEAR(rows[0].speed_up, 2, 1e-12);
+  EXPECT_LT(rows[0].low, 2);
+  EXPECT_GT(rows[0].high, 2);
+  EXPECT_EQ(rows[1].group, "two");
+  EXPECT_EQ(rows[1].cell, "");
+  EXPECT_EQ(rows[1].threads, 4);
+  EXPECT_NEAR(rows[1].speed_up, 3, 1e-12);
+}
+
+}  // namespace
+}  // namespace touchstone
