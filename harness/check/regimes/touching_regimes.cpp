@@ -18,7 +18,7 @@ namespace {
 
 using Points = std::vector<Vec3d>;
 
-constexpr std::array<std::string_view, 3> names = {"vertex", "edge", "face"};
+constexpr std::array<std::string_view, 3> touching_names = {"vertex", "edge", "face"};
 
 int integer(int low, int high, base::Random& random) {
   return low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low) + 1));
@@ -119,7 +119,7 @@ Pose common_pose(base::Random& random) {
 RegimeCase draw_touching_baked(RegimeDraw& draw) {
   base::Random& random = draw.random;
   const std::size_t a = draw.index % 3, b = draw.index / 3 % 3;
-  RegimeCase result{{}, std::string(names[a]) + "-" + std::string(names[b])};
+  RegimeCase result{{}, std::string(touching_names[a]) + "-" + std::string(touching_names[b])};
   files::Case& c = result.pair;
   Vec3d k = Vec3d::Zero();
   while (k.isZero(0)) k = integers(3, random);
@@ -148,7 +148,8 @@ RegimeCase draw_touching_origin(RegimeDraw& draw) {
   constexpr std::array<Kind, 5> kinds = {{{0, 0}, {1, 0}, {2, 0}, {1, 1}, {2, 0, true}}};
   base::Random& random = draw.random;
   const Kind& kind = kinds[draw.index % kinds.size()];
-  RegimeCase result{{}, std::string(names[kind.a]) + "-" + std::string(names[kind.b])};
+  RegimeCase result{
+      {}, std::string(touching_names[kind.a]) + "-" + std::string(touching_names[kind.b])};
   files::Case& c = result.pair;
   // Both bodies are above z = 0; a is then turned upside down.
   const auto line = [&] {

@@ -6,6 +6,7 @@
 #include "algorithms/oracle/ccd/first_within.h"
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/kinds/blocks/ccd_forms.h"
+#include "harness/check/kinds/blocks/ccd_lengths.h"
 #include "harness/check/kinds/blocks/grading.h"
 #include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/ccd_families.h"
@@ -14,19 +15,10 @@
 namespace touchstone::check {
 namespace {
 
-// Queries of one call; a crash costs them all. They have one scale, and what they are asked.
-constexpr std::uint64_t queries_of_a_call = 50;
-
+// A crash costs all queries of a call.
 struct CallAnswer {
   Status status = Status::unsupported;
   std::array<CcdOutcome, queries_of_a_call> outcomes;
-};
-
-// Lengths in metres.
-struct Lengths {
-  double tolerance = 0, separation = 0;
-
-  bool operator==(const Lengths&) const = default;
 };
 
 struct Call {
@@ -41,11 +33,12 @@ class CcdBlock final : public CaseBlock {
       : family_(all_families()[number]), range_(range) {
     for (std::uint64_t index = range.first; index < range.first + range.count; ++index) {
       auto draws = draws_of(CaseKind::ccd, number, range.seed, index);
-      const Size size = size_of(index);
+      const double scale = ccd_size(index).scale;
       // A translation by a million sizes, which rounds the coordinates.
-      const double offset = draws.below(6) == 0 ? 0x1p20 * size.scale : 0;
-      queries_.push_back(families::changed(family_.draw(draws), size.scale, offset));
+      const double offset = draws.below(6) == 0 ? 0x1p20 * scale : 0;
+      queries_.push_back(families::changed(family_.draw(draws), scale, offset));
     }
+    separated_.resize(queries_.size());
   }
 
   std::vector<GradedCase> ask(const Contestant& contestant, CaseForm form,
@@ -58,7 +51,7 @@ class CcdBlock final : public CaseBlock {
       if (!is_asked(form, range_.first + i)) continue;
       const std::uint64_t index = range_.first + i;
       const std::optional<CcdQuery> query = query_in_form(
-          queries_[i], first_count(), size_of(index).scale, FormNumbers(range_.seed, index), form);
+          queries_[i], first_count(), ccd_size(index).scale, FormNumbers(range_.seed, index), form);
       if (query) add(calls, contestant, i, *query, form);
     }
     const std::vector<CcdOutcome> outcomes = solve(entry, calls, time_limit);
@@ -91,9 +84,6 @@ class CcdBlock final : public CaseBlock {
   }
 
  private:
-  struct Size {
-    double scale, tolerance;
-  };
   // Those of an axis come after the others.
   static const std::vector<families::CcdFamily>& all_families() {
     static const std::vector<families::CcdFamily> all = [] {
@@ -105,21 +95,15 @@ class CcdBlock final : public CaseBlock {
     }();
     return all;
   }
-  static Size size_of(std::uint64_t index) {
-    constexpr std::array<Size, 6> sizes = {
-        {{1, 1e-6}, {0x1p-20, 0x1p-40}, {0x1p20, 1}, {0x1p-7, 1e-10}, {0x1p10, 0}, {1e-2, 1e-8}}};
-    return sizes[index / queries_of_a_call % sizes.size()];
-  }
 
   int first_count() const { return family_.pair == FeaturePair::vertex_face ? 1 : 2; }
   // What a query is asked as it was drawn.
   Lengths lengths_of(const Contestant& contestant, std::size_t i) const {
-    constexpr std::array<double, 5> separations = {0x1p-3, 1e-3, 0x1p-20, 1, 1e-9};
     const std::uint64_t index = range_.first + i;
-    const Size size = size_of(index);
-    if (contestant.task == 0) return {size.tolerance, 0};
-    return {size.tolerance,
-            size.scale * separations[index / queries_of_a_call % separations.size()]};
+    if (contestant.task == 0) return {ccd_size(index).tolerance, 0};
+    if (!separated_[i])
+      separated_[i] = separated_lengths(index, queries_[i], first_count(), oracle_);
+    return *separated_[i];
   }
   oracle::ccd::Impact impact(std::size_t i, const Lengths& lengths) const {
     const oracle::ccd::MovingFeatures features{first_count(), queries_[i].start, queries_[i].end};
@@ -274,8 +258,9 @@ class CcdBlock final : public CaseBlock {
   const families::CcdFamily& family_;
   BlockRange range_;
   std::vector<CcdQuery> queries_;
+  mutable std::vector<std::optional<Lengths>> separated_;   // found when they are first asked for
   std::array<std::vector<oracle::ccd::Impact>, 2> truths_;  // by the contestant's task
-  oracle::Oracle oracle_;
+  mutable oracle::Oracle oracle_;
 };
 
 }  // namespace

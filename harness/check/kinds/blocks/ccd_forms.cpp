@@ -88,6 +88,10 @@ std::optional<std::array<Vec3d, 4>> vertices_halfway(const CcdQuery& query) {
   return middle;
 }
 
+double distance_at(const CcdQuery& query, int first_count, double time, oracle::Oracle& oracle) {
+  return std::max(0.0, measured_at(query, first_count, time, oracle).measure.middle());
+}
+
 int side_of_distance(const CcdQuery& query, int first_count, double time, double distance,
                      oracle::Oracle& oracle) {
   const auto [measure, reach] = measured_at(query, first_count, time, oracle);

@@ -19,6 +19,9 @@ std::optional<CcdQuery> query_in_form(const CcdQuery& query, int first_count, do
 // The vertices halfway, if they are exact.
 std::optional<std::array<Vec3d, 4>> vertices_halfway(const CcdQuery& query);
 
+// The distance of the features at a time (metres), up to the rounding of their places; 0 where they share a point.
+double distance_at(const CcdQuery& query, int first_count, double time, oracle::Oracle& oracle);
+
 // 1 if the features are further apart than that at the time (metres), -1 if they are nearer, both by more
 // than rounding and what they move in 2^-38 of the time; 0 between.
 int side_of_distance(const CcdQuery& query, int first_count, double time, double distance,
