@@ -1,5 +1,5 @@
 // Tests the lengths that queries of continuous collision are asked with.
-#include "harness/check/kinds/blocks/ccd_lengths.h"
+#include "harness/check/kinds/blocks/motion/ccd_lengths.h"
 
 #include <gtest/gtest.h>
 

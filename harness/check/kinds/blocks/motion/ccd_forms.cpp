@@ -1,4 +1,4 @@
-#include "harness/check/kinds/blocks/ccd_forms.h"
+#include "harness/check/kinds/blocks/motion/ccd_forms.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,5 +1,5 @@
 // Asks the oracle.
-#include "harness/check/kinds/blocks/cast_truths.h"
+#include "harness/check/kinds/blocks/motion/cast_truths.h"
 
 #include <algorithm>
 #include <limits>

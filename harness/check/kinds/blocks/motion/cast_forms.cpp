@@ -1,5 +1,5 @@
 // Makes the forms.
-#include "harness/check/kinds/blocks/cast_forms.h"
+#include "harness/check/kinds/blocks/motion/cast_forms.h"
 
 #include <optional>
 #include <utility>

@@ -5,9 +5,9 @@
 
 #include "algorithms/oracle/ccd/first_within.h"
 #include "algorithms/oracle/oracle.h"
-#include "harness/check/kinds/blocks/ccd_forms.h"
-#include "harness/check/kinds/blocks/ccd_lengths.h"
 #include "harness/check/kinds/blocks/grading.h"
+#include "harness/check/kinds/blocks/motion/ccd_forms.h"
+#include "harness/check/kinds/blocks/motion/ccd_lengths.h"
 #include "harness/check/kinds/blocks/other_axes.h"
 #include "harness/families/ccd_families.h"
 #include "harness/files/text_file.h"

@@ -1,11 +1,11 @@
 // Draws separations, and finds a least distance by golden sections.
-#include "harness/check/kinds/blocks/ccd_lengths.h"
+#include "harness/check/kinds/blocks/motion/ccd_lengths.h"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
 
-#include "harness/check/kinds/blocks/ccd_forms.h"
+#include "harness/check/kinds/blocks/motion/ccd_forms.h"
 
 namespace touchstone::check {
 namespace {

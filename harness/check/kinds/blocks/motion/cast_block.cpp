@@ -8,10 +8,10 @@
 #include <tuple>
 #include <utility>
 
-#include "harness/check/kinds/blocks/cast_forms.h"
-#include "harness/check/kinds/blocks/cast_truths.h"
 #include "harness/check/kinds/blocks/drawn_cases.h"
 #include "harness/check/kinds/blocks/grading.h"
+#include "harness/check/kinds/blocks/motion/cast_forms.h"
+#include "harness/check/kinds/blocks/motion/cast_truths.h"
 #include "harness/files/text_file.h"
 #include "harness/process/queries/solve_cast.h"
 
