@@ -1,0 +1,73 @@
+// Part of auto: the counts of the frames, and the broad phase that they speak for.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "algorithms/broad_phase.h"
+#include "algorithms/broad_phase/auto/frame_costs.h"
+#include "algorithms/broad_phase/auto/looks.h"
+
+namespace touchstone {
+
+// What was asked and found in the last frame.
+struct Answers {
+  Question asked = Question::pairs;
+  bool are_changes = false;  // find_changes has been called
+  bool is_known = false;     // the number of the pairs is
+  std::size_t pairs = 0;     // their number
+  std::size_t changes = 0;   // number of those that began and ended, if these were asked for
+};
+
+class Choice {
+ public:
+  Candidate candidate() const { return candidate_; }
+  // Begins with a build.
+  void start(Candidate candidate, std::size_t bodies) {
+    candidate_ = candidate;
+    bodies_ = bodies;
+    wanted_for_ = 0;
+    patience_ = 1;
+    looks_ = {};
+  }
+
+  // Returns true if another candidate is to take over with this frame.
+  bool update(const FrameChange& change, const Answers& answers) {
+    const std::size_t churn = change.inserted.size() + change.removed.size();
+    bodies_ += change.inserted.size();
+    bodies_ -= change.removed.size();
+    if (is_for_rest(candidate_) && are_few(change.moved.size() + churn, answers)) {
+      wanted_for_ = 0;
+      return answers.is_known && looks_.is_due() && look(change, answers);
+    }
+    return update_slowly(change.moved.size() + churn, answers);
+  }
+
+  std::size_t held_bytes() const { return looks_.held_bytes(); }
+
+ private:
+  static constexpr std::size_t many_bodies = 400'000;
+  static constexpr int most_patience = 64;
+
+  static bool is_for_rest(Candidate candidate) {
+    return candidate == Candidate::dynamic_bvh ||
+           candidate == Candidate::incremental_sweep_and_prune;
+  }
+  // True if the changes are few enough for a world that nearly rests. What is chosen is kept up to
+  // twice the threshold. The two for such worlds alone tell changes without all pairs.
+  bool are_few(std::size_t changes, const Answers& answers) const {
+    const std::size_t kept = is_for_rest(candidate_) ? 2 : 1;
+    return (answers.are_changes ? 8 : 32) * changes <= kept * bodies_;
+  }
+  Candidate wants(std::size_t changes, const Answers& answers) const;
+  bool update_slowly(std::size_t changes, const Answers& answers);
+  bool look(const FrameChange& change, const Answers& answers);
+
+  Candidate candidate_ = Candidate::packed_rtree;
+  std::size_t bodies_ = 0;
+  int wanted_for_ = 0;  // frames in a row in which another candidate was wanted
+  int patience_ = 1;    // frames
+  Looks looks_;
+};
+
+}  // namespace touchstone

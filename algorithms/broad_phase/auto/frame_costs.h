@@ -1,0 +1,46 @@
+// Part of auto: the broad phases that it takes, and what a frame costs the two that suit worlds in
+// which few bodies move.
+#pragma once
+
+#include <cstdint>
+
+namespace touchstone {
+
+enum class Candidate : std::uint8_t {
+  packed_rtree,
+  verlet_list,
+  dynamic_bvh,
+  incremental_sweep_and_prune
+};
+
+// What a frame is asked for: all pairs, those that began and ended, or those of some bodies.
+enum class Question : std::uint8_t { pairs, changes, pairs_of };
+
+// How a body moves in a frame, in the mean over those that do.
+struct MoverMotion {
+  double axes = 0;    // on which it moves, of three
+  double passes = 0;  // end points that its own pass, on all axes
+  // The share of frames in which it leaves a box that exceeds its own by a tenth of the longest
+  // side, at least that of a box which serves for eight frames.
+  double leaving = 0;
+};
+
+struct FrameCounts {
+  double bodies = 0;
+  double moved = 0;
+  double churn = 0;    // bodies that come and go
+  double pairs = 0;    // of all bodies
+  double changes = 0;  // pairs that began and ended, if these are asked for
+  Question asked = Question::pairs;
+  MoverMotion motion;
+};
+
+// Returns what a frame costs, and what a build does, in nanoseconds of the machine on which they
+// were measured: elsewhere ratios and differences have a meaning, the numbers have none.
+double dynamic_bvh_cost(const FrameCounts& frame);
+double incremental_sweep_and_prune_cost(const FrameCounts& frame);
+double dynamic_bvh_build_cost(const FrameCounts& frame);
+// `overlapping` is the share of all pairs of boxes that overlap on the axis of the sweep.
+double incremental_sweep_and_prune_build_cost(const FrameCounts& frame, double overlapping);
+
+}  // namespace touchstone

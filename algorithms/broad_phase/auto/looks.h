@@ -1,0 +1,45 @@
+// Part of auto: while few bodies move, when to take a look at what incremental sweep and prune would
+// cost and the dynamic BVH, and when the other one is to take over.
+// Paper: Karlin, Manasse, Rudolph, Sleator, "Competitive Snoopy Caching", Algorithmica 3, 1988
+//        (change over when as much has been lost as the change costs).
+#pragma once
+
+#include <cstdint>
+
+#include "algorithms/broad_phase.h"
+#include "algorithms/broad_phase/auto/endpoint_passes.h"
+#include "algorithms/broad_phase/auto/frame_costs.h"
+
+namespace touchstone {
+
+// A look takes two frames, from one of which to the other it sees how far bodies move. Looks are
+// spaced out up to `most_wait` frames, so that they cost next to nothing; a frame without one is
+// taken to be like that of the next look.
+class Looks {
+ public:
+  // Starts anew, with frequent looks; nothing has been lost yet.
+  void start();
+  // Counts a frame; true if it has a look.
+  bool is_due() { return --until_ == 0; }
+  // Returns true if the other of the two is to take over with this frame. All counts of the frame
+  // are given but the motion.
+  bool look(const FrameChange& change, Candidate candidate, FrameCounts counts);
+
+  std::size_t held_bytes() const { return passes_.held_bytes(); }
+
+ private:
+  static constexpr std::uint32_t most_wait = 128;       // frames
+  static constexpr std::uint32_t looks_a_sample = 256;  // looks
+  static constexpr double most_bodies = 50'000;         // for which the costs were measured
+  static constexpr double least_gain = 0.05;            // that counts, as a share of the cost
+  static constexpr double most_patience = 64;
+
+  EndpointPasses passes_;
+  std::uint32_t until_ = 1, wait_ = 1;  // frames
+  std::uint32_t looks_ = 0;
+  bool is_noted_ = false;  // the first half of a look has been taken
+  double lost_ = 0;        // nanoseconds, since the last change
+  double patience_ = 1;    // builds
+};
+
+}  // namespace touchstone

@@ -1,0 +1,106 @@
+// The choice by counts alone: which candidate which frames want, and how soon.
+#include "algorithms/broad_phase/auto/choice.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/algorithms/broad_phase/box_sets.h"
+
+namespace touchstone {
+namespace {
+
+class ChoiceByCounts : public testing::Test {
+ protected:
+  // A world of so many bodies, of which the first `movers` move.
+  void start(std::size_t bodies, std::size_t movers) {
+    boxes_ = uniform_boxes(random_, bodies, 0.1f);
+    moved_.resize(movers);
+    std::iota(moved_.begin(), moved_.end(), 0U);
+    answers_ = {.is_known = true, .pairs = 3 * bodies};
+    choice_.start(Candidate::packed_rtree, bodies);
+  }
+  // Returns the first of so many frames in which the candidate is chosen; -1 if in none.
+  int frames_until(Candidate candidate, int frames, float step, std::size_t axes = 3) {
+    for (int frame = 0; frame < frames; ++frame) {
+      for (const std::uint32_t id : moved_) {
+        for (std::size_t axis = 0; axis < axes; ++axis) {
+          // To and fro, so that the world stays as it is.
+          const float by = (frame + static_cast<int>(id)) % 2 == 0 ? step : -step;
+          boxes_[id].min[axis] += by;
+          boxes_[id].max[axis] += by;
+        }
+      }
+      choice_.update({boxes_, moved_, {}, {}}, answers_);
+      if (choice_.candidate() == candidate) return frame;
+    }
+    return -1;
+  }
+
+  static constexpr Candidate bvh = Candidate::dynamic_bvh;
+  static constexpr Candidate sap = Candidate::incremental_sweep_and_prune;
+  Random random_{23};
+  std::vector<Aabb> boxes_;
+  std::vector<std::uint32_t> moved_;
+  Answers answers_;
+  Choice choice_;
+};
+
+TEST_F(ChoiceByCounts, OfAWorldThatNearlyRestsDependsOnHowManyEndPointsPass) {
+  for (const Question asked : {Question::pairs, Question::changes}) {
+    SCOPED_TRACE(static_cast<int>(asked));
+    start(4'000, 40);
+    answers_.asked = asked;
+    EXPECT_EQ(frames_until(bvh, 1, 1e-5f), 0);
+    // It takes as long as the build costs, and then stays.
+    EXPECT_GT(frames_until(sap, 5'000, 1e-5f, 1), 20);
+    EXPECT_EQ(frames_until(bvh, 5'000, 1e-5f, 1), -1);
+    EXPECT_GE(frames_until(bvh, 5'000, 0.1f), 0);
+    EXPECT_EQ(frames_until(sap, 5'000, 0.1f), -1);
+  }
+}
+
+TEST_F(ChoiceByCounts, TakesPairsOfSomeBodiesFromTheDynamicBvh) {
+  start(4'000, 40);
+  answers_.asked = Question::pairs_of;
+  EXPECT_EQ(frames_until(bvh, 1, 1e-5f), 0);
+  EXPECT_EQ(frames_until(sap, 5'000, 1e-5f, 1), -1);
+  answers_.asked = Question::changes;
+  EXPECT_GT(frames_until(sap, 5'000, 1e-5f, 1), 0);
+  answers_.asked = Question::pairs_of;
+  EXPECT_GE(frames_until(bvh, 5'000, 1e-5f, 1), 0);
+}
+
+// The costs are not known without the number of the pairs, and were not measured for more bodies.
+TEST_F(ChoiceByCounts, StaysWhereCostsAreNotKnown) {
+  start(4'000, 40);
+  answers_.is_known = false;
+  EXPECT_EQ(frames_until(sap, 5'000, 1e-5f, 1), -1);
+  EXPECT_EQ(choice_.candidate(), bvh);
+  start(60'000, 600);
+  EXPECT_EQ(frames_until(sap, 1'000, 1e-7f, 1), -1);
+  EXPECT_EQ(choice_.candidate(), bvh);
+}
+
+// A world that changes its character all the time makes it wait longer and longer.
+TEST_F(ChoiceByCounts, ChangesLessAndLessOften) {
+  start(2'000, 20);
+  std::vector<int> waits;
+  for (int change = 0; change < 4; ++change) {
+    waits.push_back(frames_until(sap, 1'000'000, 1e-5f, 1));
+    ASSERT_GE(waits.back(), 0) << change;
+    ASSERT_GE(frames_until(bvh, 1'000'000, 0.1f), 0) << change;
+  }
+  EXPECT_GT(waits.back(), 4 * waits[1]);
+}
+
+TEST_F(ChoiceByCounts, OfBodiesThatAllMoveDependsOnThePairs) {
+  start(2'000, 2'000);
+  EXPECT_EQ(frames_until(Candidate::verlet_list, 50, 1e-3f), -1);
+  EXPECT_EQ(choice_.candidate(), Candidate::packed_rtree);
+  answers_.pairs = 1'000;
+  EXPECT_EQ(frames_until(Candidate::verlet_list, 1, 1e-3f), 0);
+}
+
+}  // namespace
+}  // namespace touchstone
