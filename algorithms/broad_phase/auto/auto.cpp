@@ -5,8 +5,9 @@
 // Steps:   1. Start with the packed R-tree, which needs no earlier frame.
 //          2. In each update count the bodies that moved, came or went, and take the pairs of the
 //             frame before (choice.cpp).
-//          3. Few changes want the dynamic BVH. Otherwise few pairs want the Verlet list, if the
-//             bodies are not more than 400,000; the rest wants the packed R-tree.
+//          3. Few changes want the dynamic BVH. Otherwise more than 400,000 bodies want the packed
+//             R-tree. Of fewer, those that have few pairs want the Verlet list, and so do more than
+//             2,500 of about one size; the rest wants the packed R-tree.
 //          4. When another one has been wanted for some frames in a row, build it with this frame's
 //             boxes, and drop the one before. The first frame after a build suffices.
 //          5. While changes are few, look now and then how far some of the bodies move, and estimate
@@ -29,8 +30,8 @@
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/broad_phase/auto/choice.h"
+#include "algorithms/broad_phase/auto/noted_changes.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/core/pair_history.h"
 
 namespace touchstone::entries {
 
@@ -91,57 +92,40 @@ class Auto final : public BroadPhase {
 
   Status find_changes(PairSink& began, PairSink& ended) override {
     const Status status = active_->find_changes(began, ended);
-    if (are_noted_) join_noted(began, ended);
+    if (!noted_.empty()) noted_.join(began, ended);
     const std::size_t came = began.size(), went = ended.size();
     told_ += came - went;
-    answers_ = {.asked = Question::changes,
-                .are_changes = true,
-                .is_known = true,
-                .pairs = told_,
-                .changes = came + went};
+    answers_.asked = Question::changes;
+    answers_.are_changes = answers_.is_known = true;
+    answers_.pairs = told_;
+    answers_.changes = came + went;
     return status;
   }
 
   BroadPhaseWork work() const override {
     BroadPhaseWork work = active_->work();
-    work.bytes += sum_held_bytes(choice_, came_, went_);
+    work.bytes += sum_held_bytes(choice_, noted_);
     return work;
   }
   std::vector<StructureBox> structure() const override { return active_->structure(); }
 
  private:
-  static void note(const PairSink& sink, std::vector<IndexPair>& pairs) {
-    for (const PairBuffer& chunk : sink.chunks()) {
-      pairs.insert(pairs.end(), chunk.pairs().begin(), chunk.pairs().end());
-    }
-  }
-
-  // Makes the one that is chosen now take over with this frame.
-  void replace(const FrameChange& change) {
+  // Makes the one that is chosen now take over with this frame. Where little moves, all of update
+  // takes a few nanoseconds: this is kept out of it.
+  [[gnu::noinline]] void replace(const FrameChange& change) {
     // The one before tells what has changed up to now, and the next one begins from there.
-    PairSink began, ended;
     if (answers_.are_changes) {
       active_->update(change);
-      active_->find_changes(began, ended);
-      note(began, came_);
-      note(ended, went_);
-      are_noted_ = true;
+      noted_.note(*active_);
     }
     active_ = make(choice_.candidate(), executor_);
     active_->build(change.boxes);
     // The dynamic BVH keeps the pairs that it finds from its first update on.
     if (choice_.candidate() == Candidate::dynamic_bvh) active_->update({change.boxes, {}, {}, {}});
-    if (answers_.are_changes) active_->find_changes(began, ended);
-  }
-
-  // Puts the changes that were told to a replacement together with those since then.
-  void join_noted(PairSink& began, PairSink& ended) {
-    note(began, came_);
-    note(ended, went_);
-    write_difference(came_, went_, began, ended);
-    came_.clear();
-    went_.clear();
-    are_noted_ = false;
+    if (answers_.are_changes) {
+      PairSink all, none;
+      active_->find_changes(all, none);
+    }
   }
 
   Executor& executor_;
@@ -149,9 +133,7 @@ class Auto final : public BroadPhase {
   std::unique_ptr<BroadPhase> active_;
   Answers answers_;
   std::size_t told_ = 0;  // number of the pairs when changes were last asked for
-  // The changes since then that the last one told when it was replaced.
-  bool are_noted_ = false;
-  std::vector<IndexPair> came_, went_;
+  NotedChanges noted_;
 };
 
 }  // namespace

@@ -33,20 +33,19 @@ class Choice {
 
   // Returns true if another candidate is to take over with this frame.
   bool update(const FrameChange& change, const Answers& answers) {
-    const std::size_t churn = change.inserted.size() + change.removed.size();
     bodies_ += change.inserted.size();
     bodies_ -= change.removed.size();
-    if (is_for_rest(candidate_) && are_few(change.moved.size() + churn, answers)) {
-      wanted_for_ = 0;
-      return answers.is_known && looks_.is_due() && look(change, answers);
+    if (!is_for_rest(candidate_) || !are_few(change, answers)) {
+      return update_slowly(change, answers);
     }
-    return update_slowly(change.moved.size() + churn, answers);
+    wanted_for_ = 0;
+    return answers.is_known && looks_.is_due() && look(change, answers);
   }
 
   std::size_t held_bytes() const { return looks_.held_bytes(); }
 
  private:
-  static constexpr std::size_t many_bodies = 400'000;
+  static constexpr std::size_t few_bodies = 2'500, many_bodies = 400'000;
   static constexpr int most_patience = 64;
 
   static bool is_for_rest(Candidate candidate) {
@@ -55,12 +54,15 @@ class Choice {
   }
   // True if the changes are few enough for a world that nearly rests. What is chosen is kept up to
   // twice the threshold. The two for such worlds alone tell changes without all pairs.
-  bool are_few(std::size_t changes, const Answers& answers) const {
+  bool are_few(const FrameChange& change, const Answers& answers) const {
+    const std::size_t changes =
+        change.moved.size() + change.inserted.size() + change.removed.size();
     const std::size_t kept = is_for_rest(candidate_) ? 2 : 1;
     return (answers.are_changes ? 8 : 32) * changes <= kept * bodies_;
   }
-  Candidate wants(std::size_t changes, const Answers& answers) const;
-  bool update_slowly(std::size_t changes, const Answers& answers);
+  Candidate wants(const FrameChange& change, const Answers& answers) const;
+  // Returns what update does where it is not one of the two for such worlds that goes on.
+  bool update_slowly(const FrameChange& change, const Answers& answers);
   bool look(const FrameChange& change, const Answers& answers);
 
   Candidate candidate_ = Candidate::packed_rtree;

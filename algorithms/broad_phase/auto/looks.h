@@ -32,14 +32,16 @@ class Looks {
   static constexpr std::uint32_t looks_a_sample = 256;  // looks
   static constexpr double most_bodies = 50'000;         // for which the costs were measured
   static constexpr double least_gain = 0.05;            // that counts, as a share of the cost
-  static constexpr double most_patience = 64;
+  // Parts of a build that may be lost before a change: at first few, since a world is taken to stay
+  // as it is for many times as long as it has; in the end what makes it competitive.
+  static constexpr double least_patience = 1.0 / 32, most_patience = 2;
 
   EndpointPasses passes_;
   std::uint32_t until_ = 1, wait_ = 1;  // frames
   std::uint32_t looks_ = 0;
   bool is_noted_ = false;  // the first half of a look has been taken
   double lost_ = 0;        // nanoseconds, since the last change
-  double patience_ = 1;    // builds
+  double patience_ = least_patience;
 };
 
 }  // namespace touchstone
