@@ -78,7 +78,7 @@ class Auto final : public BroadPhase {
 
   Status find_pairs(PairSink& sink) override {
     const Status status = active_->find_pairs(sink);
-    answers_.asked = Question::pairs;
+    ++answers_.tally.listings;
     answers_.is_known = true;
     answers_.pairs = sink.size();
     answers_.changes = 0;
@@ -86,7 +86,7 @@ class Auto final : public BroadPhase {
   }
 
   Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) override {
-    answers_.asked = Question::pairs_of;
+    ++answers_.tally.selections;
     return active_->find_pairs_of(bodies, sink);
   }
 
@@ -95,7 +95,6 @@ class Auto final : public BroadPhase {
     if (!noted_.empty()) noted_.join(began, ended);
     const std::size_t came = began.size(), went = ended.size();
     told_ += came - went;
-    answers_.asked = Question::changes;
     answers_.are_changes = answers_.is_known = true;
     answers_.pairs = told_;
     answers_.changes = came + went;
@@ -118,6 +117,7 @@ class Auto final : public BroadPhase {
       active_->update(change);
       noted_.note(*active_);
     }
+    answers_.tally = {};
     active_ = make(choice_.candidate(), executor_);
     active_->build(change.boxes);
     // The dynamic BVH keeps the pairs that it finds from its first update on.

@@ -47,16 +47,13 @@ bool Choice::update_slowly(const FrameChange& change, const Answers& answers) {
   return true;
 }
 
-bool Choice::look(const FrameChange& change, const Answers& answers) {
-  const std::size_t churn = change.inserted.size() + change.removed.size();
-  const FrameCounts counts{.bodies = static_cast<double>(bodies_),
-                           .moved = static_cast<double>(change.moved.size()),
-                           .churn = static_cast<double>(churn),
-                           .pairs = static_cast<double>(answers.pairs),
-                           .changes = static_cast<double>(answers.changes),
-                           .asked = answers.asked,
-                           .motion = {}};
-  if (!looks_.look(change, candidate_, counts)) return false;
+bool Choice::look(const FrameChange& change, Answers& answers) {
+  FrameCounts counts;
+  counts.bodies = static_cast<double>(bodies_);
+  counts.moved = static_cast<double>(change.moved.size());
+  counts.pairs = static_cast<double>(answers.pairs);
+  counts.changes = static_cast<double>(answers.changes);
+  if (!looks_.look(change, candidate_, counts, answers.tally)) return false;
   candidate_ = candidate_ == Candidate::dynamic_bvh ? Candidate::incremental_sweep_and_prune
                                                     : Candidate::dynamic_bvh;
   return true;

@@ -10,9 +10,9 @@
 
 namespace touchstone {
 
-// What was asked and found in the last frame.
+// What was asked, and found in the last frame.
 struct Answers {
-  Question asked = Question::pairs;
+  Tally tally;
   bool are_changes = false;  // find_changes has been called
   bool is_known = false;     // the number of the pairs is
   std::size_t pairs = 0;     // their number
@@ -32,9 +32,13 @@ class Choice {
   }
 
   // Returns true if another candidate is to take over with this frame.
-  bool update(const FrameChange& change, const Answers& answers) {
-    bodies_ += change.inserted.size();
-    bodies_ -= change.removed.size();
+  bool update(const FrameChange& change, Answers& answers) {
+    if (const std::size_t churn = change.inserted.size() + change.removed.size(); churn > 0) {
+      bodies_ += change.inserted.size();
+      bodies_ -= change.removed.size();
+      answers.tally.churn += churn;
+      ++answers.tally.churning;
+    }
     if (!is_for_rest(candidate_) || !are_few(change, answers)) {
       return update_slowly(change, answers);
     }
@@ -63,7 +67,7 @@ class Choice {
   Candidate wants(const FrameChange& change, const Answers& answers) const;
   // Returns what update does where it is not one of the two for such worlds that goes on.
   bool update_slowly(const FrameChange& change, const Answers& answers);
-  bool look(const FrameChange& change, const Answers& answers);
+  bool look(const FrameChange& change, Answers& answers);
 
   Candidate candidate_ = Candidate::packed_rtree;
   std::size_t bodies_ = 0;

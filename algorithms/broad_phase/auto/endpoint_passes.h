@@ -25,6 +25,7 @@ class EndpointPasses {
 
   // Notes the boxes of some of the bodies that move.
   void note(std::span<const Aabb> boxes, std::span<const std::uint32_t> moved);
+  std::size_t noted() const { return noted_.size(); }
   // Returns how the noted bodies have moved since then among `bodies` bodies; nothing if none has.
   std::optional<MoverMotion> motion(std::span<const Aabb> boxes, std::size_t bodies) const;
 

@@ -13,7 +13,7 @@ double dynamic_bvh_cost(const FrameCounts& frame) {
   const double pairs_a_body = frame.pairs / std::max(frame.bodies, 1.0);
   const double update = 20 + frame.moved * (19 * pairs_a_body + 100 * frame.motion.leaving) +
                         80 * frame.changes + 300 * frame.churn;
-  return update + (frame.asked == Question::pairs ? 0.12 * frame.pairs : 0);
+  return update + 0.12 * frame.pairs * frame.listings;
 }
 
 double incremental_sweep_and_prune_cost(const FrameCounts& frame) {
@@ -21,11 +21,10 @@ double incremental_sweep_and_prune_cost(const FrameCounts& frame) {
   // The more end points move, the less does the processor foresee how far each goes.
   const double unforeseen = std::log2(std::max(moves / 90, 1.0));
   double cost = 75 + moves * (8.6 + 8.4 * unforeseen) + 2.15 * frame.moved * frame.motion.passes;
-  // All end points and pairs are gone through, and all boxes for each body.
-  if (frame.churn > 0) cost += (12 + frame.churn / 16) * frame.bodies + 3 * frame.pairs;
-  if (frame.asked == Question::pairs) cost += 0.067 * frame.pairs;
-  if (frame.asked == Question::pairs_of) cost += 1.5 * frame.pairs;
-  return cost;
+  // Where bodies come or go, all end points and pairs are gone through, and all boxes for each.
+  cost += frame.churning * (12 * frame.bodies + 3 * frame.pairs);
+  cost += frame.churn / 16 * frame.bodies;
+  return cost + frame.pairs * (0.067 * frame.listings + 1.5 * frame.selections);
 }
 
 double dynamic_bvh_build_cost(const FrameCounts& frame) {

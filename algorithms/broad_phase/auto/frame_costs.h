@@ -13,9 +13,6 @@ enum class Candidate : std::uint8_t {
   incremental_sweep_and_prune
 };
 
-// What a frame is asked for: all pairs, those that began and ended, or those of some bodies.
-enum class Question : std::uint8_t { pairs, changes, pairs_of };
-
 // How a body moves in a frame, in the mean over those that do.
 struct MoverMotion {
   double axes = 0;    // on which it moves, of three
@@ -28,10 +25,12 @@ struct MoverMotion {
 struct FrameCounts {
   double bodies = 0;
   double moved = 0;
-  double churn = 0;    // bodies that come and go
   double pairs = 0;    // of all bodies
   double changes = 0;  // pairs that began and ended, if these are asked for
-  Question asked = Question::pairs;
+  // In the mean over some frames: how often all pairs are asked for, and those of some bodies; how
+  // many bodies come or go, and the share of the frames in which any does.
+  double listings = 0, selections = 0;
+  double churn = 0, churning = 0;
   MoverMotion motion;
 };
 
