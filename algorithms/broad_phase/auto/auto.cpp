@@ -120,8 +120,10 @@ class Auto final : public BroadPhase {
     answers_.tally = {};
     active_ = make(choice_.candidate(), executor_);
     active_->build(change.boxes);
-    // The dynamic BVH keeps the pairs that it finds from its first update on.
-    if (choice_.candidate() == Candidate::dynamic_bvh) active_->update({change.boxes, {}, {}, {}});
+    // The dynamic BVH keeps the pairs that it finds from its first update on, when it also sees how
+    // far bodies move. It need not wait where nothing does.
+    const bool waits = choice_.candidate() != Candidate::dynamic_bvh || !change.moved.empty();
+    if (!waits) active_->update({change.boxes, {}, {}, {}});
     if (answers_.are_changes) {
       PairSink all, none;
       active_->find_changes(all, none);

@@ -37,7 +37,7 @@ class Looks {
  private:
   static constexpr std::uint32_t looks_a_sample = 256;  // looks
   static constexpr double most_share = 1.0 / 128;       // of the time that looks take
-  static constexpr double most_bodies = 50'000;         // for which the costs were measured
+  static constexpr double most_bodies = 100'000;        // for which the costs were measured
   static constexpr double least_gain = 0.05;            // that counts, as a share of the cost
   // Parts of a build that may be lost before a change: at first few, since a world is taken to stay
   // as it is for many times as long as it has; in the end what makes it competitive.

@@ -85,7 +85,7 @@ TEST_F(ChoiceByCounts, StaysWhereCostsAreNotKnown) {
   answers_.is_known = false;
   EXPECT_EQ(frames_until(sap, 5'000, 1e-5f, 1), -1);
   EXPECT_EQ(choice_.candidate(), bvh);
-  start(60'000, 600);
+  start(100'001, 1'000);
   EXPECT_EQ(frames_until(sap, 1'000, 1e-7f, 1), -1);
   EXPECT_EQ(choice_.candidate(), bvh);
 }
