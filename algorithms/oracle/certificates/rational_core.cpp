@@ -6,22 +6,10 @@
 namespace touchstone::oracle {
 
 RationalCore::RationalCore(const Body& body, mp_bitcnt_t root_bits)
-    : solid_(*body.solid), root_bits_(root_bits), translation_(rational_vector(body.translation)) {
-  if (body.quaternion) {
-    const auto& q = *body.quaternion;
-    const mpq_class w = rational(q[0]);
-    const RationalVector v = {rational(q[1]), rational(q[2]), rational(q[3])};
-    const mpq_class square = w * w + dot(v, v);
-    require(square != 0, "a quaternion is zero");
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      rows_[i][i] = (w * w + v[i] * v[i] - v[j] * v[j] - v[k] * v[k]) / square;
-      rows_[i][j] = 2 * (v[i] * v[j] - w * v[k]) / square;
-      rows_[i][k] = 2 * (v[i] * v[k] + w * v[j]) / square;
-    }
-  } else {
-    for (int i = 0; i < 3; ++i) rows_[i] = rational_vector(Vec3d(body.matrix.row(i)));
-  }
+    : RationalCore(*body.solid, rational_pose(body), root_bits) {}
+
+RationalCore::RationalCore(const Solid& solid, const RationalPose& pose, mp_bitcnt_t root_bits)
+    : solid_(solid), root_bits_(root_bits), rows_(pose.rows), translation_(pose.translation) {
   if (is_halfspace()) place_plane();
   extents_ = rational_vector(solid_.extents);
   for (const mpq_class& extent : extents_) require(extent >= 0, "an extent is negative");

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "algorithms/oracle/certificates/rational_pose.h"
 #include "algorithms/oracle/certificates/rationals.h"
 #include "algorithms/oracle/solid.h"
 
@@ -15,6 +16,7 @@ class RationalCore {
  public:
   // Roots are computed to `root_bits` bits.
   RationalCore(const Body& body, mp_bitcnt_t root_bits);
+  RationalCore(const Solid& solid, const RationalPose& pose, mp_bitcnt_t root_bits);
 
   // Moves the core: first turns it about the body's origin, then displaces it.
   void turn(const std::array<RationalVector, 3>& rotation);

@@ -15,6 +15,8 @@
 
 #include "algorithms/oracle/numbers/dyadic.h"
 #include "algorithms/oracle/rays/box_tree.h"
+#include "algorithms/oracle/rays/nearest_point.h"
+#include "algorithms/oracle/rays/on_grid.h"
 #include "algorithms/oracle/rays/ray_triangle.h"
 #include "algorithms/point_query.h"
 
@@ -25,58 +27,15 @@ using oracle::cross;
 using oracle::dot;
 using oracle::Integer;
 using oracle::is_zero;
+using oracle::least_exponent;
+using oracle::nearest_of;
+using oracle::NearestInTriangle;
+using oracle::on_grid;
+using oracle::SeenTriangle;
 using oracle::operator-;
 using oracle::operator+;
 using oracle::operator*;
 using oracle::IntegerVector;
-
-// The point of a triangle that is nearest to the origin: at / scale, and its squared distance.
-struct Nearest {
-  Integer top, bottom;
-  IntegerVector at;
-  Integer scale;
-};
-
-int least_exponent(const Vec3d& v) {
-  int least = oracle::Dyadic::of_zero;
-  for (const double x : v) least = std::min(least, oracle::dyadic(x).exponent);
-  return least;
-}
-
-IntegerVector placed(const Vec3d& v, int exponent) {
-  return {oracle::dyadic(v[0]).over_power(exponent), oracle::dyadic(v[1]).over_power(exponent),
-          oracle::dyadic(v[2]).over_power(exponent)};
-}
-
-using Seen = std::array<IntegerVector, 3>;  // the vertices from the point
-
-Nearest nearest_of(const Seen& seen) {
-  std::optional<Nearest> best;
-  const auto is_nearer = [&](const Integer& top, const Integer& bottom) {
-    return !best || top * best->bottom < best->top * bottom;
-  };
-  const IntegerVector normal = cross(seen[1] - seen[0], seen[2] - seen[0]);
-  bool is_over = !is_zero(normal);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const IntegerVector &a = seen[k], &b = seen[(k + 1) % 3];
-    const Integer square = dot(a, a);
-    if (is_nearer(square, 1)) best = Nearest{square, 1, a, 1};
-    const IntegerVector edge = b - a, volume = cross(a, b);
-    const Integer along = -dot(a, edge);
-    if (along > 0 && dot(b, edge) > 0) {
-      const Integer top = dot(volume, volume), length = dot(edge, edge);
-      if (is_nearer(top, length)) best = Nearest{top, length, length * a + along * edge, length};
-    }
-    is_over = is_over && dot(normal, volume) >= 0;
-  }
-  if (is_over) {
-    const Integer height = dot(normal, seen[0]), area = dot(normal, normal);
-    if (is_nearer(height * height, area)) {
-      best = Nearest{height * height, area, height * normal, area};
-    }
-  }
-  return *best;
-}
 
 // The root of top / bottom, whose square may be beyond doubles, times a power of two.
 double root_of(const Integer& top, const Integer& bottom, int exponent) {
@@ -88,7 +47,7 @@ double root_of(const Integer& top, const Integer& bottom, int exponent) {
 }
 
 // True if the origin is in the closed triangle.
-bool has_origin(const Seen& seen) {
+bool has_origin(const SeenTriangle& seen) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto all = [&](int sign) {
       return std::ranges::all_of(seen, [&](const auto& v) { return v[axis].sign() == sign; });
@@ -100,7 +59,7 @@ bool has_origin(const Seen& seen) {
 
 // +1 or -1 if the ray from the origin leaves or enters through the triangle, 0 if it passes by, and
 // nothing if it meets its boundary's line of sight.
-std::optional<int> crossing(const Seen& seen, const IntegerVector& direction) {
+std::optional<int> crossing(const SeenTriangle& seen, const IntegerVector& direction) {
   int plus = 0, minus = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const int sign = dot(direction, cross(seen[k], seen[(k + 1) % 3])).sign();
@@ -143,19 +102,19 @@ class ExactPointQuery final : public PointQuery {
   }
 
  private:
-  Seen seen(std::uint32_t triangle, const IntegerVector& from) const {
+  SeenTriangle seen(std::uint32_t triangle, const IntegerVector& from) const {
     const auto& [a, b, c] = mesh_->triangles[triangle];
     const auto& vertices = mesh_->vertices;
-    return {placed(vertices[a], exponent_) - from, placed(vertices[b], exponent_) - from,
-            placed(vertices[c], exponent_) - from};
+    return {on_grid(vertices[a], exponent_) - from, on_grid(vertices[b], exponent_) - from,
+            on_grid(vertices[c], exponent_) - from};
   }
 
   void find_closest(const Vec3d& point, PointAnswer& answer) {
-    const IntegerVector from = placed(point, exponent_);
+    const IntegerVector from = on_grid(point, exponent_);
     tree_.may_be_nearest(point, asked_);
-    std::optional<Nearest> best;
+    std::optional<NearestInTriangle> best;
     for (const std::uint32_t triangle : asked_) {
-      Nearest nearest = nearest_of(seen(triangle, from));
+      NearestInTriangle nearest = nearest_of(seen(triangle, from));
       if (best && nearest.top * best->bottom >= best->top * nearest.bottom) continue;
       best = std::move(nearest);
       answer.triangle = triangle;
@@ -175,7 +134,7 @@ class ExactPointQuery final : public PointQuery {
   }
 
   PointSide side(const Vec3d& point) {
-    const IntegerVector from = placed(point, exponent_);
+    const IntegerVector from = on_grid(point, exponent_);
     tree_.may_be_nearest(point, asked_);
     for (const std::uint32_t triangle : asked_) {
       if (has_origin(seen(triangle, from))) return PointSide::surface;
@@ -190,7 +149,7 @@ class ExactPointQuery final : public PointQuery {
       int winding = 0;
       bool is_clear = true;
       for (const std::uint32_t triangle : asked_) {
-        const Seen corners = seen(triangle, from);
+        const SeenTriangle corners = seen(triangle, from);
         if (is_zero(cross(corners[1] - corners[0], corners[2] - corners[0]))) continue;
         const std::optional<int> crossed = crossing(corners, direction);
         is_clear = is_clear && crossed;

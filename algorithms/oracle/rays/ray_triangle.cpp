@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "algorithms/oracle/numbers/dyadic.h"
+#include "algorithms/oracle/rays/on_grid.h"
 
 namespace touchstone::oracle {
 namespace {
@@ -25,13 +26,8 @@ bool lies_behind(const Vec3d& origin, const Vec3d& direction,
   return false;
 }
 
-int least_exponent(const Vec3d& v) {
-  return std::min({dyadic(v[0]).exponent, dyadic(v[1]).exponent, dyadic(v[2]).exponent});
-}
-IntegerVector on_grid(const Vec3d& v, int exponent) {
-  return {dyadic(v[0]).over_power(exponent), dyadic(v[1]).over_power(exponent),
-          dyadic(v[2]).over_power(exponent)};
-}
+using oracle::least_exponent;
+using oracle::on_grid;
 
 // A vector whose components are sums of dyadic numbers, exactly.
 using Terms = std::array<std::array<Dyadic, 4>, 3>;

@@ -2,17 +2,16 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/base/error.h"
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/query/proofs.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
@@ -95,45 +94,33 @@ void print_summary(const std::vector<CastAnswers>& all) {
 }
 
 // Proves the exact answer of each case that the exact cast takes, and writes one certificate a line.
-void save_certificates(const std::vector<files::CastCase>& cases, const CastOptions& options) {
+void save_cast_proofs(const std::vector<files::CastCase>& cases, const CastOptions& options) {
   const CastEntry& exact = *find_cast("exact");
   std::vector<std::size_t> taken;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const files::CastCase& c = cases[i];
     if (offers(exact, c.shape_a.kind, c.shape_b.kind, process::turns(c))) taken.push_back(i);
   }
-  std::ofstream stream(options.saved, std::ios::binary);
+  SavedCertificates saved(options.saved);
   for (const std::size_t i : taken) {
-    stream << files::to_json(process::prove_cast(cases[i], options.settings.tolerance)) << '\n';
+    saved.add(files::to_json(process::prove_cast(cases[i], options.settings.tolerance)));
   }
-  stream.close();
-  if (!stream) throw base::InputError(options.saved, 0, "cannot be written");
-  fmt::print("{} certificates in {}\n", taken.size(), options.saved);
+  saved.close();
 }
 
-int verify_certificates(const std::string& file) {
-  constexpr int most_told = 1000;
-  std::int64_t verified = 0, refused = 0;
-  files::read_cast_certificates(
-      file, [&](const files::StoredCastCertificate& stored, std::int64_t line) {
-        const std::string why = process::fault_of(stored);
-        ++(why.empty() ? verified : refused);
-        if (why.empty() || refused > most_told) return;
-        fmt::print(stderr, "{}:{}: {}: {}\n", file, line, stored.of.id, why);
-      });
-  fmt::print("{} certificates verified, {} refused\n", verified, refused);
-  return refused == 0 ? exit_done : exit_measured_wrong;
+int verify_cast_proofs(const std::string& file) {
+  Verdicts verdicts(file);
+  files::read_cast_certificates(file,
+                                [&](const files::StoredCastCertificate& stored, std::int64_t line) {
+                                  verdicts.add(line, stored.of.id, process::fault_of(stored));
+                                });
+  return verdicts.end();
 }
 
 void cast(const CastOptions& options) {
-  const auto require = [](const std::string& value, const char* name) {
-    if (!value.empty()) return;
-    throw base::InputError(
-        fmt::format("{} is missing; expected it, or --certificates alone", name));
-  };
-  require(options.cases, "CASES");
-  require(options.casts, "--cast");
-  require(options.out, "--out");
+  expect_without_certificates(options.cases, "CASES");
+  expect_without_certificates(options.casts, "--cast");
+  expect_without_certificates(options.out, "--out");
   if (!options.saved.empty() && options.settings.start == StartContact::approach) {
     throw base::InputError(
         "--save-certificates: there are proofs only of casts where contact at time 0 counts; "
@@ -156,7 +143,7 @@ void cast(const CastOptions& options) {
   }
   csv.close();
   print_summary(all);
-  if (!options.saved.empty()) save_certificates(cases, options);
+  if (!options.saved.empty()) save_cast_proofs(cases, options);
 }
 
 }  // namespace
@@ -193,7 +180,7 @@ void add_cast(Arguments command) {
   command.text("--certificates", options->certificates, "Only verify the proofs in this file");
   command.exclude_others("--certificates");
   command.job([options]() -> int {
-    if (!options->certificates.empty()) return verify_certificates(options->certificates);
+    if (!options->certificates.empty()) return verify_cast_proofs(options->certificates);
     cast(*options);
     return exit_done;
   });

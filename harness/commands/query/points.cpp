@@ -5,18 +5,23 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "algorithms/oracle/certificates/parts/mesh_certificate_check.h"
+#include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/file_text.h"
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/query/proofs.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/files/proofs/mesh_certificates.h"
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/shapes/compound.h"
 #include "harness/process/isolate.h"
@@ -26,6 +31,7 @@ namespace {
 
 struct PointsOptions {
   std::string mesh, points, query = "all", out;
+  std::string saved, certificates;  // files of proofs; none if empty
   PointTask task = PointTask::closest;
   double time_limit = 5;  // seconds a point
 };
@@ -112,7 +118,35 @@ void check_closed(const std::string& file, const TriangleMesh& mesh) {
                   file, from[0], from[1], from[2], to[0], to[1], to[2]));
 }
 
+// Proves the exact answer for each point.
+void save_point_proofs(const TriangleMesh& mesh, const std::vector<Vec3d>& points,
+                       const PointsOptions& options) {
+  SavedCertificates saved(options.saved);
+  saved.head(files::mesh_line(mesh));
+  oracle::MeshProver prover(mesh);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto certificate = options.task == PointTask::side ? prover.prove_side(points[i])
+                                                             : prover.prove_nearest(points[i]);
+    if (certificate) saved.add(files::to_json(files::StoredPointCertificate{i, *certificate}));
+  }
+  saved.close();
+}
+
+int verify_point_proofs(const std::string& file) {
+  Verdicts verdicts(file);
+  std::optional<oracle::CheckedMesh> mesh;
+  files::read_point_certificates(
+      file, [&](const TriangleMesh& read) { mesh.emplace(read); },
+      [&](const files::StoredPointCertificate& stored, std::int64_t line) {
+        verdicts.add(line, fmt::format("point {}", stored.point), mesh->fault(stored.certificate));
+      });
+  return verdicts.end();
+}
+
 void ask_points(const PointsOptions& options) {
+  expect_without_certificates(options.mesh, "MESH");
+  expect_without_certificates(options.points, "--points");
+  expect_without_certificates(options.out, "--out");
   const auto entries =
       campaign::select(point_queries(), campaign::split_names(options.query), "point query");
   geometry::Mesh read = geometry::read_surface(options.mesh);
@@ -120,7 +154,7 @@ void ask_points(const PointsOptions& options) {
   if (options.task == PointTask::side) check_closed(options.mesh, mesh);
   const std::vector<Vec3d> points = read_points(options.points);
   files::check_outputs({{"MESH", options.mesh}, {"--points", options.points}},
-                       {{"--out", options.out}});
+                       {{"--out", options.out}, {"--save-certificates", options.saved}});
   std::vector<PointAnswers> all;
   all.reserve(entries.size());
   for (const PointQueryEntry* entry : entries)
@@ -132,6 +166,7 @@ void ask_points(const PointsOptions& options) {
   }
   csv.close();
   print_points_summary(all);
+  if (!options.saved.empty()) save_point_proofs(mesh, points, options);
 }
 
 }  // namespace
@@ -140,8 +175,8 @@ void add_points(Arguments command) {
   static const Arguments::Choices<PointTask> tasks = {{"closest", PointTask::closest},
                                                       {"side", PointTask::side}};
   const auto options = std::make_shared<PointsOptions>();
-  command.text("MESH", options->mesh, "The mesh: OBJ, OFF, STL or PLY").required();
-  command.text("--points", options->points, "Points: CSV with x, y and z").required();
+  command.text("MESH", options->mesh, "The mesh: OBJ, OFF, STL or PLY (required)");
+  command.text("--points", options->points, "Points: CSV with x, y and z (required)");
   command.text("--query", options->query, "Point queries: names joined by commas, or all")
       .show_default();
   command
@@ -149,8 +184,13 @@ void add_points(Arguments command) {
               "The closest point, or the side of the surface, which has to be closed")
       .show_default("closest");
   add_time_limit(command, options->time_limit, "Seconds that a point may take").show_default();
-  command.text("--out", options->out, "The CSV file to write").required();
-  command.job([options] {
+  command.text("--out", options->out, "The CSV file to write (required)");
+  command.text("--save-certificates", options->saved,
+               "Also prove the exact answer for each point, and write the proofs to this file");
+  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
+  command.exclude_others("--certificates");
+  command.job([options]() -> int {
+    if (!options->certificates.empty()) return verify_point_proofs(options->certificates);
     ask_points(*options);
     return exit_done;
   });

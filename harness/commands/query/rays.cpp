@@ -2,20 +2,26 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "algorithms/core/nearest_float.h"
+#include "algorithms/oracle/certificates/parts/mesh_certificate_check.h"
+#include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/query/proofs.h"
 #include "harness/commands/query/rays_files.h"
 #include "harness/commands/query/rays_of_scenes.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/files/proofs/mesh_certificates.h"
 #include "harness/geometry/mesh.h"
 #include "harness/process/isolate.h"
 
@@ -62,6 +68,36 @@ void write_row(files::CsvWriter& csv, std::size_t ray, const Cast& cast, Precisi
   csv.end_row();
 }
 
+// Proves the exact answer for each ray.
+void save_ray_proofs(TriangleMesh mesh, const std::vector<Ray>& rays, const RaysOptions& options) {
+  const auto rounded = [&](const Vec3d& v) {
+    return options.settings.scalar == Precision::float64 ? v : nearest_float(v);
+  };
+  for (Vec3d& vertex : mesh.vertices) vertex = rounded(vertex);
+  SavedCertificates saved(options.saved);
+  saved.head(files::mesh_line(mesh));
+  oracle::MeshProver prover(mesh);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Ray ray = {rounded(rays[i].origin), rounded(rays[i].direction), rays[i].t_max};
+    if (options.settings.scalar == Precision::float32) ray.t_max = nearest_float(ray.t_max);
+    const auto certificate =
+        prover.prove_ray(ray.origin, ray.direction, ray.t_max, options.task == RayTask::closest);
+    if (certificate) saved.add(files::to_json(files::StoredRayCertificate{i, *certificate}));
+  }
+  saved.close();
+}
+
+int verify_ray_proofs(const std::string& file) {
+  Verdicts verdicts(file);
+  std::optional<oracle::CheckedMesh> mesh;
+  files::read_ray_certificates(
+      file, [&](const TriangleMesh& read) { mesh.emplace(read); },
+      [&](const files::StoredRayCertificate& stored, std::int64_t line) {
+        verdicts.add(line, fmt::format("ray {}", stored.ray), mesh->fault(stored.certificate));
+      });
+  return verdicts.end();
+}
+
 void cast_rays(const RaysOptions& options) {
   const auto entries =
       campaign::select(ray_casts(), campaign::split_names(options.cast), "ray cast");
@@ -69,7 +105,7 @@ void cast_rays(const RaysOptions& options) {
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Ray> rays = read_rays(options.rays);
   files::check_outputs({{"FILE", options.target}, {"--rays", options.rays}},
-                       {{"--out", options.out}});
+                       {{"--out", options.out}, {"--save-certificates", options.saved}});
   std::vector<Cast> casts;
   casts.reserve(entries.size());
   for (const RayCastEntry* entry : entries) casts.push_back(ask(*entry, mesh, rays, options));
@@ -86,6 +122,24 @@ void cast_rays(const RaysOptions& options) {
     for (const RayHit& hit : cast.hits) summary.add(hit.hit, hit.status);
   }
   print_summaries(summaries);
+  if (!options.saved.empty()) save_ray_proofs(mesh, rays, options);
+}
+
+void cast_rays_at_target(RaysOptions& options) {
+  expect_without_certificates(options.target, "FILE");
+  expect_without_certificates(options.rays, "--rays");
+  expect_without_certificates(options.cast, "--cast");
+  expect_without_certificates(options.asked ? "given" : "", "--task");
+  expect_without_certificates(options.out, "--out");
+  options.task = *options.asked;
+  if (is_scene(options.target)) {
+    if (!options.saved.empty()) {
+      throw base::InputError("--save-certificates: FILE is a scene; expected a mesh");
+    }
+    return cast_rays_at_scene(options);
+  }
+  if (options.frame != 0) throw base::InputError("--frame: a mesh has no frames");
+  cast_rays(options);
 }
 
 }  // namespace
@@ -94,28 +148,27 @@ void add_rays(Arguments command) {
   static const Arguments::Choices<RayTask> tasks = {{"closest", RayTask::closest},
                                                     {"any", RayTask::any}};
   const auto options = std::make_shared<RaysOptions>();
-  command
-      .text(
-          "FILE", options->target,
-          "A mesh (OBJ, OFF, STL or PLY; a face of more corners becomes a fan of triangles around "
-          "its first, which is right for convex faces), or a scene (TOML, or rigid-ipc's JSON)")
-      .required();
-  command.text("--rays", options->rays, "Rays: CSV with origin, direction and t_max").required();
-  command.text("--cast", options->cast, "Ray casts: names joined by commas, or all").required();
-  command.one_of("--task", options->task, tasks, "The first hit, or whether there is any")
-      .required();
+  command.text(
+      "FILE", options->target,
+      "A mesh (OBJ, OFF, STL or PLY; a face of more corners becomes a fan of triangles around "
+      "its first, which is right for convex faces), or a scene (TOML, or rigid-ipc's JSON)");
+  command.text("--rays", options->rays, "Rays: CSV with origin, direction and t_max (required)");
+  command.text("--cast", options->cast, "Ray casts: names joined by commas, or all (required)");
+  command.one_of("--task", options->asked, tasks,
+                 "The first hit, or whether there is any (required)");
   command.one_of("--scalar", options->settings.scalar, scalar_choices(), "What the input is")
       .show_default("double");
   command.number("--frame", options->frame, "Which frame of a scene").show_default();
   add_time_limit(command, options->time_limit, "Seconds that a ray may take").show_default();
-  command.text("--out", options->out, "The CSV file to write").required();
-  command.job([options] {
-    if (is_scene(options->target)) {
-      cast_rays_at_scene(*options);
-    } else {
-      if (options->frame != 0) throw base::InputError("--frame: a mesh has no frames");
-      cast_rays(*options);
-    }
+  command.text("--out", options->out, "The CSV file to write (required)");
+  command.text(
+      "--save-certificates", options->saved,
+      "Also prove the exact answer for each ray at a mesh, and write the proofs to this file");
+  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
+  command.exclude_others("--certificates");
+  command.job([options]() -> int {
+    if (!options->certificates.empty()) return verify_ray_proofs(options->certificates);
+    cast_rays_at_target(*options);
     return exit_done;
   });
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace touchstone::commands {
 
 struct RaysOptions {
   std::string target, rays, cast, out;  // target: a mesh or a scene
+  std::string saved, certificates;      // files of proofs; none if empty
+  std::optional<RayTask> asked;
   RayTask task = RayTask::closest;
   RayCastSettings settings;
   int frame = 0;

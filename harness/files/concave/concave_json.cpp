@@ -41,27 +41,6 @@ void check_closed(const JsonNode& node, const TriangleMesh& mesh) {
       from[0], from[1], from[2], to[0], to[1], to[2]));
 }
 
-std::shared_ptr<const TriangleMesh> read_mesh(const JsonNode& node) {
-  TriangleMesh mesh;
-  const JsonNode vertices = node.at("vertices", "an array of vertices [x,y,z]");
-  vertices.as_array("an array of vertices [x,y,z]");
-  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.vertices.push_back(vertices[i].vector());
-  const JsonNode triangles = node.at("triangles", "an array of triangles [i,j,k]");
-  triangles.as_array("an array of triangles [i,j,k]");
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    mesh.triangles.push_back(read_triangle(triangles[i], mesh.vertices.size()));
-  }
-  if (node.has("solid")) {
-    const JsonNode solid = node.at("solid", "");
-    if (!solid.value().is_boolean()) {
-      solid.fail(fmt::format("found {}; expected true or false", solid.found()));
-    }
-    mesh.solid = solid.value().get<bool>();
-  }
-  if (mesh.solid) check_closed(node, mesh);
-  return std::make_shared<const TriangleMesh>(std::move(mesh));
-}
-
 bool has_type(const JsonNode& shape, const char* type) {
   shape.as_object("an object, such as {\"type\":\"sphere\",\"radius\":1}");
   return shape.at("type", "a shape's name").text("a shape's name") == type;
@@ -93,10 +72,37 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around, ConcaveBody&
   }
 }
 
-OrderedJson mesh_to_json(const TriangleMesh& mesh, const Pose& pose) {
+OrderedJson placed_mesh_to_json(const TriangleMesh& mesh, const Pose& pose) {
   OrderedJson out = body_to_json(Shape{}, pose);  // for the pose
-  OrderedJson& shape = out["shape"];
-  shape = OrderedJson();
+  out["shape"] = mesh_to_json(mesh);
+  return out;
+}
+
+}  // namespace
+
+std::shared_ptr<const TriangleMesh> read_mesh(const JsonNode& node) {
+  TriangleMesh mesh;
+  const JsonNode vertices = node.at("vertices", "an array of vertices [x,y,z]");
+  vertices.as_array("an array of vertices [x,y,z]");
+  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.vertices.push_back(vertices[i].vector());
+  const JsonNode triangles = node.at("triangles", "an array of triangles [i,j,k]");
+  triangles.as_array("an array of triangles [i,j,k]");
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    mesh.triangles.push_back(read_triangle(triangles[i], mesh.vertices.size()));
+  }
+  if (node.has("solid")) {
+    const JsonNode solid = node.at("solid", "");
+    if (!solid.value().is_boolean()) {
+      solid.fail(fmt::format("found {}; expected true or false", solid.found()));
+    }
+    mesh.solid = solid.value().get<bool>();
+  }
+  if (mesh.solid) check_closed(node, mesh);
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
+}
+
+OrderedJson mesh_to_json(const TriangleMesh& mesh) {
+  OrderedJson shape;
   shape["type"] = "mesh";
   shape["vertices"] = OrderedJson::array();
   for (const Vec3d& v : mesh.vertices) {
@@ -105,10 +111,8 @@ OrderedJson mesh_to_json(const TriangleMesh& mesh, const Pose& pose) {
   shape["triangles"] = OrderedJson::array();
   for (const auto& triangle : mesh.triangles) shape["triangles"].push_back(triangle);
   shape["solid"] = mesh.solid;
-  return out;
+  return shape;
 }
-
-}  // namespace
 
 ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
   body.as_object("an object with a shape and its pose");
@@ -132,7 +136,7 @@ OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose) {
                         body.parts[0].pose.rotation.isIdentity(0) &&
                         body.parts[0].pose.translation.isZero(0);
   if (is_shape) return body_to_json(body.parts[0].shape, pose);
-  if (body.mesh) return mesh_to_json(*body.mesh, pose);
+  if (body.mesh) return placed_mesh_to_json(*body.mesh, pose);
   OrderedJson out = body_to_json(Shape{}, pose);  // for the pose
   OrderedJson& shape = out["shape"];
   shape = OrderedJson();
@@ -142,7 +146,7 @@ OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose) {
   for (std::size_t i = 0; i < body.parts.size();) {
     const ConvexPart& part = body.parts[i];
     if (surface != body.surfaces.end() && surface->first == i) {
-      shape["parts"].push_back(mesh_to_json(*surface->mesh, part.pose));
+      shape["parts"].push_back(placed_mesh_to_json(*surface->mesh, part.pose));
       i += surface++->mesh->triangles.size();
     } else {
       shape["parts"].push_back(body_to_json(part.shape, part.pose));

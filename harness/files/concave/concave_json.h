@@ -5,6 +5,8 @@
 // flat hull; if it is solid, what it winds around belongs to the body too.
 #pragma once
 
+#include <memory>
+
 #include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/pose.h"
 #include "harness/files/json_line.h"
@@ -15,6 +17,10 @@ namespace touchstone::files {
 // Throws InputError as described at read_concave_cases. Parts of nested compounds are numbered depth
 // first.
 ConcaveBody read_concave_body(const JsonNode& body, Pose& pose);
+
+// The shape of a mesh.
+std::shared_ptr<const TriangleMesh> read_mesh(const JsonNode& shape);
+OrderedJson mesh_to_json(const TriangleMesh& mesh);
 
 // A body of one convex part at its origin is written as that shape.
 OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose);

@@ -8,7 +8,6 @@ namespace touchstone::files {
 namespace {
 
 using oracle::CastCertificate;
-using oracle::TimeFraction;
 
 CastAnswer read_cast_answer(const JsonNode& node) {
   constexpr std::string_view expected = "hit, miss or unknown";
@@ -19,19 +18,10 @@ CastAnswer read_cast_answer(const JsonNode& node) {
   node.fail(fmt::format("found {}; expected {}", node.found(), expected));
 }
 
-TimeFraction read_time(const JsonNode& node) {
-  const auto [numerator, denominator] = read_integers<2>(node);
-  return {numerator, denominator};
-}
-
 CastCertificate::Plane read_plane(const JsonNode& node) {
   node.as_object("a plane: an object with \"until\" and \"direction\"");
-  return {read_time(node.at("until", "a time")),
+  return {read_fraction(node.at("until", "a time")),
           read_integers<3>(node.at("direction", "an array of 3 integers in strings"))};
-}
-
-OrderedJson time_to_json(const TimeFraction& time) {
-  return {time.numerator.str(), time.denominator.str()};
 }
 
 }  // namespace
@@ -40,12 +30,12 @@ std::string to_json(const StoredCastCertificate& stored) {
   const CastCertificate& certificate = stored.certificate;
   OrderedJson out = to_ordered_json(stored.of);
   out["answer"] = to_string(certificate.answer);
-  out["lower"] = time_to_json(certificate.lower);
-  out["upper"] = time_to_json(certificate.upper);
+  out["lower"] = fraction_to_json(certificate.lower);
+  out["upper"] = fraction_to_json(certificate.upper);
   out["planes"] = OrderedJson::array();
   for (const auto& [until, direction] : certificate.planes) {
     out["planes"].push_back(
-        {{"until", time_to_json(until)}, {"direction", integers_to_json(direction)}});
+        {{"until", fraction_to_json(until)}, {"direction", integers_to_json(direction)}});
   }
   out["generators_a"] = generators_to_json(certificate.a);
   out["generators_b"] = generators_to_json(certificate.b);
@@ -64,8 +54,8 @@ void read_cast_certificates(
     StoredCastCertificate stored{read_cast_case(line), {}};
     CastCertificate& certificate = stored.certificate;
     certificate.answer = read_cast_answer(line.at("answer", "an answer"));
-    certificate.lower = read_time(line.at("lower", "a time"));
-    certificate.upper = read_time(line.at("upper", "a time"));
+    certificate.lower = read_fraction(line.at("lower", "a time"));
+    certificate.upper = read_fraction(line.at("upper", "a time"));
     certificate.planes = read_list(line.at("planes", "an array"), "an array of planes", read_plane);
     certificate.a = read_generators(line.at("generators_a", "an array"));
     certificate.b = read_generators(line.at("generators_b", "an array"));

@@ -76,6 +76,11 @@ Integer read_integer(const JsonNode& node) {
   return Integer(text);
 }
 
+oracle::TimeFraction read_fraction(const JsonNode& node) {
+  const auto [numerator, denominator] = read_integers<2>(node);
+  return {numerator, denominator};
+}
+
 oracle::DifferencePoint read_point(const JsonNode& node) {
   const auto [a, b] = read_items<2>(node, "indices", read_index);
   return {a, b};
@@ -96,6 +101,10 @@ Certificate::Surface read_surface(const JsonNode& node) {
                     [](const JsonNode& triangle) {
                       return read_items<3>(triangle, "indices", read_index);
                     })};
+}
+
+OrderedJson fraction_to_json(const oracle::TimeFraction& fraction) {
+  return {fraction.numerator.str(), fraction.denominator.str()};
 }
 
 OrderedJson generators_to_json(const std::vector<Generator>& generators) {

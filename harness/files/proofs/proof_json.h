@@ -1,10 +1,10 @@
-// The parts of certificates as JSON: integers, generators, points of a difference and surfaces of them.
+// The parts of certificates as JSON: integers, fractions of two of them, generators, points of a difference and surfaces of them.
 // certificates.h has their forms.
 #pragma once
 
 #include <vector>
 
-#include "algorithms/oracle/certificates/certificate.h"
+#include "algorithms/oracle/certificates/cast_certificate.h"
 #include "harness/files/json_line.h"
 
 namespace touchstone::files {
@@ -12,11 +12,13 @@ namespace touchstone::files {
 // All throw InputError with the place of what is malformed.
 std::uint32_t read_index(const JsonNode& node);
 oracle::Integer read_integer(const JsonNode& node);
+oracle::TimeFraction read_fraction(const JsonNode& node);
 oracle::DifferencePoint read_point(const JsonNode& node);
 std::vector<oracle::Generator> read_generators(const JsonNode& node);
 std::vector<oracle::Certificate::Term> read_terms(const JsonNode& node);
 oracle::Certificate::Surface read_surface(const JsonNode& node);
 
+OrderedJson fraction_to_json(const oracle::TimeFraction& fraction);
 OrderedJson generators_to_json(const std::vector<oracle::Generator>& generators);
 OrderedJson terms_to_json(const std::vector<oracle::Certificate::Term>& terms);
 OrderedJson surface_to_json(const oracle::Certificate::Surface& surface);

@@ -45,6 +45,35 @@ TEST(PointsCommand, OneRowForEachPointAndQuery) {
   }
 }
 
+TEST(PointsCommand, CertificatesAreSavedAndVerified) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("tetrahedron.obj", tetrahedron);
+  const auto points = folder.write("points.csv", "x,y,z\n1,1,-2\n0.5,0.5,0.25\n1,1,0\n");
+  const std::string proofs = (folder.path() / "proofs.jsonl").string();
+  const std::string asked = "points " + mesh.string() + " --points " + points.string() + " --out " +
+                            (folder.path() / "out.csv").string() +
+                            " --query wide-bvh --save-certificates " + proofs;
+  for (const std::string task : {"closest", "side"}) {
+    const Ran saved = run_program(asked + " --task " + task);
+    EXPECT_EQ(saved.status, 0) << saved.text;
+    EXPECT_THAT(saved.text, ::testing::HasSubstr("3 certificates in"));
+    const Ran verified = run_program("points --certificates " + proofs);
+    EXPECT_EQ(verified.status, 0) << verified.text;
+    EXPECT_THAT(verified.text, ::testing::HasSubstr("3 certificates verified, 0 refused"));
+  }
+  std::string text = folder.read("proofs.jsonl");
+  const auto place = text.find("\"winding\":1");
+  ASSERT_NE(place, std::string::npos);
+  const auto changed = folder.write("changed.jsonl", text.replace(place, 11, "\"winding\":2"));
+  const Ran refused = run_program("points --certificates " + changed.string());
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.text, ::testing::HasSubstr("changed.jsonl:3: point 1: "));
+  EXPECT_THAT(refused.text, ::testing::HasSubstr("2 certificates verified, 1 refused"));
+  EXPECT_EQ(run_program("points --certificates " + proofs + " --task side").status, 2);
+  EXPECT_THAT(run_program("points " + mesh.string()).text,
+              ::testing::HasSubstr("--points is missing; expected it, or --certificates alone"));
+}
+
 TEST(PointsCommand, WrongRequests) {
   const TemporaryFolder folder;
   const auto mesh = folder.write("tetrahedron.obj", tetrahedron);

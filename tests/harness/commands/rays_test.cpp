@@ -95,6 +95,42 @@ TEST(RaysCommand, WrongRequests) {
             2);
 }
 
+TEST(RaysCommand, CertificatesAreSavedAndVerified) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("two.obj", two_triangles);
+  const auto rays = folder.write(
+      "rays.csv", header + "0.5,0.25,3,0,0,-1,inf\n0.1,0.7,3,0,0,-4,0.25\n0.1,0.1,3,0,0,-1,9\n");
+  const std::string out = " --out " + (folder.path() / "out.csv").string();
+  const auto proofs = folder.path() / "proofs.jsonl";
+  const std::string base = "rays " + mesh.string() + " --rays " + rays.string() +
+                           " --cast wide-bvh" + out + " --save-certificates " + proofs.string();
+  const auto verify = [&](const std::filesystem::path& file) {
+    return run_program("rays --certificates " + file.string());
+  };
+  for (const std::string options : {" --task any --scalar float", " --task closest"}) {
+    const Ran saved = run_program(base + options);
+    ASSERT_EQ(saved.status, 0) << saved.text;
+    EXPECT_THAT(saved.text, HasSubstr("3 certificates in"));
+    const Ran verified = verify(proofs);
+    EXPECT_EQ(verified.status, 0) << verified.text;
+    EXPECT_THAT(verified.text, HasSubstr("3 certificates verified, 0 refused"));
+  }
+  std::string text = folder.read("proofs.jsonl");
+  const auto place = text.find("\"triangle\":1");
+  ASSERT_NE(place, std::string::npos);
+  const Ran refused =
+      verify(folder.write("changed.jsonl", text.replace(place, 12, "\"triangle\":0")));
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.text, HasSubstr("changed.jsonl:2: ray 0: "));
+  EXPECT_THAT(refused.text, HasSubstr("2 certificates verified, 1 refused"));
+  const Ran no_mesh = verify(folder.write("broken.jsonl", text.substr(text.find('\n') + 1)));
+  EXPECT_EQ(no_mesh.status, 2);
+  EXPECT_THAT(no_mesh.text, HasSubstr("broken.jsonl:1: a certificate before any mesh"));
+  EXPECT_EQ(run_program("rays " + mesh.string() + " --certificates " + proofs.string()).status, 2);
+  EXPECT_THAT(run_program("rays " + mesh.string() + " --rays " + rays.string()).text,
+              HasSubstr("--cast is missing; expected it, or --certificates alone"));
+}
+
 // A box and a ball beside it; the mouse's ray at each, past them, and at a later frame of the ball.
 TEST(RaysCommand, OneRowForEachRayAtAScene) {
   const TemporaryFolder folder;

@@ -1,0 +1,45 @@
+// What the commands that save and verify certificates share.
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+namespace touchstone::commands {
+
+// Writes certificates, one a line.
+class SavedCertificates {
+ public:
+  explicit SavedCertificates(const std::string& file);
+
+  // A line that is no certificate, such as one that others refer to.
+  void head(const std::string& line);
+  void add(const std::string& line);
+  // Prints how many there are. Throws InputError if the file cannot be written.
+  void close();
+
+ private:
+  std::string file_;
+  std::ofstream stream_;
+  std::int64_t count_ = 0;
+};
+
+// Counts the certificates of a file, and prints where one is refused and why.
+class Verdicts {
+ public:
+  explicit Verdicts(const std::string& file) : file_(file) {}
+
+  // `why` is empty if the certificate is verified.
+  void add(std::int64_t line, const std::string& name, const std::string& why);
+  // Prints the numbers; returns the program's exit status.
+  int end() const;
+
+ private:
+  std::string file_;
+  std::int64_t verified_ = 0, refused_ = 0;
+};
+
+// Throws InputError if the value is missing that a command needs where it does not verify certificates alone.
+void expect_without_certificates(const std::string& value, const char* name);
+
+}  // namespace touchstone::commands

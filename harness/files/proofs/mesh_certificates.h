@@ -1,0 +1,48 @@
+// Certificates of rays and points at a mesh as JSON, one object a line. A mesh comes before the rays or the points at
+// it, and there may be several:
+//   {"mesh":{"type":"mesh", "vertices":[[x,y,z], ...], "triangles":[[i,j,k], ...], "solid":false}}
+//   {"ray":0, "task":"closest", "origin":[x,y,z], "direction":[x,y,z], "t_max":"inf", "hit":true,
+//    "triangle":5, "t":["1","2"]}
+//   {"point":0, "at":[x,y,z], "claim":"nearest", "triangle":5, "square":["1","4"]}
+//   {"point":1, "at":[x,y,z], "claim":"inside", "winding":1}
+//   {"point":2, "at":[x,y,z], "claim":"surface"}
+// A miss has neither triangle nor t, and the nearest of an empty mesh neither triangle nor square. t and the squared distance are
+// fractions of two integers; t_max is a number or "inf".
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "algorithms/core/mesh/triangle_mesh.h"
+#include "algorithms/oracle/certificates/parts/mesh_certificates.h"
+
+namespace touchstone::files {
+
+struct StoredRayCertificate {
+  std::uint64_t ray = 0;  // its number in the file of rays
+  oracle::RayCertificate certificate;
+};
+struct StoredPointCertificate {
+  std::uint64_t point = 0;
+  oracle::PointCertificate certificate;
+};
+
+// One line each, without the line break, that the functions below turn into the same bits. Numbers must be
+// finite, but for t_max.
+std::string mesh_line(const TriangleMesh& mesh);
+std::string to_json(const StoredRayCertificate& certificate);
+std::string to_json(const StoredPointCertificate& certificate);
+
+// Call `mesh` for each mesh, and `each` for each certificate with its line, in order. Throw InputError
+// with file, line, key and the expected value for what is malformed, and for a certificate before any mesh;
+// certificates before that were valid. They do not check whether a certificate proves anything.
+void read_ray_certificates(
+    const std::filesystem::path& file, const std::function<void(const TriangleMesh&)>& mesh,
+    const std::function<void(const StoredRayCertificate&, std::int64_t line)>& each);
+void read_point_certificates(
+    const std::filesystem::path& file, const std::function<void(const TriangleMesh&)>& mesh,
+    const std::function<void(const StoredPointCertificate&, std::int64_t line)>& each);
+
+}  // namespace touchstone::files

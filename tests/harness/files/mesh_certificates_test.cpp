@@ -1,0 +1,100 @@
+// Certificates of rays and points at meshes, as files.
+#include "harness/files/proofs/mesh_certificates.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/harness/input_fault.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::HasSubstr;
+using Claim = oracle::PointCertificate::Claim;
+
+const std::string mesh_text =
+    R"({"mesh":{"type":"mesh","vertices":[[0.0,0.0,0.0],[1.0,0.0,0.0],[0.1,1.0,-0.0]],)"
+    R"("triangles":[[0,1,2]],"solid":false}})";
+const std::string ray_text =
+    R"({"ray":7,"task":"closest","origin":[0.1,0.0,1e-310],"direction":[0.0,0.0,-1.0],)"
+    R"("t_max":"inf","hit":true,"triangle":0,"t":["1","3"]})";
+const std::string point_text =
+    R"({"point":3,"at":[0.1,0.0,1.0],"claim":"nearest","triangle":0,"square":["1","3"]})";
+
+class MeshCertificates : public ::testing::Test {
+ protected:
+  // The lines that are written for those that were read.
+  std::string rewritten(const std::string& text, bool of_rays) {
+    std::string out;
+    const auto file = folder.write("in.jsonl", text);
+    const auto mesh = [&](const TriangleMesh& read) { out += files::mesh_line(read) + "\n"; };
+    const auto each = [&](const auto& stored, std::int64_t) { out += to_json(stored) + "\n"; };
+    if (of_rays) {
+      files::read_ray_certificates(file, mesh, each);
+    } else {
+      files::read_point_certificates(file, mesh, each);
+    }
+    return out;
+  }
+  std::string fault(const std::string& text, bool of_rays) {
+    return folder.without_path(input_fault([&] { rewritten(text, of_rays); }));
+  }
+  void expect_fault(std::string text, const std::string& part, const std::string& other,
+                    bool of_rays, const std::string& said) {
+    const auto place = text.find(part);
+    ASSERT_NE(place, std::string::npos) << part;
+    text.replace(place, part.size(), other);
+    EXPECT_THAT(fault(mesh_text + "\n" + text, of_rays), HasSubstr("in.jsonl:2: " + said));
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(MeshCertificates, AreReadAsTheyWereWritten) {
+  const std::string miss =
+      R"({"ray":0,"task":"any","origin":[0.1,0.0,1.0],"direction":[0.0,0.0,5e-324],)"
+      R"("t_max":0.1,"hit":false})";
+  const std::string rays = mesh_text + "\n" + ray_text + "\n" + miss + "\n";
+  EXPECT_EQ(rewritten(rays, true), rays);
+  const std::string points = mesh_text + "\n" + point_text + "\n" +
+                             R"({"point":4,"at":[0.1,0.0,1.0],"claim":"inside","winding":-2})" +
+                             "\n" +
+                             R"({"point":4,"at":[0.1,0.0,1.0],"claim":"outside","winding":0})" +
+                             "\n" + R"({"point":4,"at":[0.1,0.0,1.0],"claim":"surface"})" + "\n" +
+                             R"({"point":4,"at":[0.1,0.0,1.0],"claim":"nearest"})" + "\n";
+  EXPECT_EQ(rewritten(points, false), points);
+}
+
+TEST_F(MeshCertificates, WhatIsMalformedIsToldWithItsPlace) {
+  EXPECT_THAT(fault(ray_text, true), HasSubstr("in.jsonl:1: a certificate before any mesh"));
+  EXPECT_THAT(fault(point_text, false), HasSubstr("in.jsonl:1: a certificate before any mesh"));
+  EXPECT_THAT(fault("[1]", true), HasSubstr("in.jsonl:1: found an array of 1"));
+  EXPECT_THAT(fault(R"({"mesh":{"vertices":[],"triangles":[[0,1,2]]}})", true),
+              HasSubstr("mesh.triangles[0]"));
+  for (const std::string key : {"task", "origin", "direction", "t_max", "hit", "triangle", "t"}) {
+    expect_fault(ray_text, "\"" + key + "\"", "\"x\"", true, "no \"" + key + "\"");
+  }
+  expect_fault(ray_text, "7", "-7", true, "ray: found -7");
+  expect_fault(ray_text, "closest", "first", true, "task: found \"first\"");
+  expect_fault(ray_text, "\"inf\"", "\"far\"", true, "t_max: found \"far\"");
+  expect_fault(ray_text, "true", "1", true, "hit: found 1");
+  expect_fault(ray_text, "true", "false", true, "\"triangle\" of a miss");
+  expect_fault(ray_text, "\"triangle\":0", "\"triangle\":0.5", true, "triangle: found 0.5");
+  expect_fault(ray_text, "\"1\",\"3\"", "\"1\"", true, "t: found an array of 1");
+  expect_fault(ray_text, "\"3\"", "\"x\"", true, "t[1]: found \"x\"");
+  expect_fault(ray_text, "[0.1,", "[", true, "origin: found an array of 2");
+  for (const std::string key : {"at", "claim", "triangle", "square"}) {
+    expect_fault(point_text, "\"" + key + "\"", "\"x\"", false, "no \"" + key + "\"");
+  }
+  expect_fault(point_text, "nearest", "near", false, "claim: found \"near\"");
+  expect_fault(point_text, "nearest", "inside", false, "no \"winding\"");
+  expect_fault(point_text, "nearest\"", "inside\",\"winding\":99999999999", false,
+               "winding: found");
+}
+
+}  // namespace
+}  // namespace touchstone
