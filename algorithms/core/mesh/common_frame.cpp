@@ -52,10 +52,17 @@ AboutInverse about_inverse(const Mat3d& m) {
   return found;
 }
 
-// Returns true if x y + z is the same in doubles and exactly.
+// Returns true if x y is the same in doubles and exactly. What rounding cuts off a product is at least 2^-106 of it, so
+// that it is a double too unless the product is near the least of them.
+bool is_exact_product(double x, double y, double product) {
+  if (x == 0 || y == 0 || std::abs(x) == 1 || std::abs(y) == 1) return true;
+  return std::abs(product) >= tiny * 0x1p106 && std::fma(x, y, -product) == 0;
+}
+
+// Returns true if x y + z is the same in doubles and exactly. Says false for some that are, near the least doubles.
 bool is_exact(double x, double y, double z) {
   const double product = x * y;
-  if (std::fma(x, y, -product) != 0) return false;
+  if (!is_exact_product(x, y, product)) return false;
   const double sum = product + z, back = sum - product;
   return (product - (sum - back)) + (z - back) == 0;
 }
@@ -117,7 +124,8 @@ ComposedPose composed(const Pose& outer, const Pose& inner, double reach) {
                                                    inner.translation.cwiseAbs().maxCoeff()) +
                            outer.translation.cwiseAbs().maxCoeff();
   // The bound is for each coordinate, and for the distance twice that.
-  result.error = exact ? 0 : 16 * u * magnitude + tiny;
+  // Entries that underflow are off by less than `tiny`, times the reach.
+  result.error = exact ? 0 : 16 * u * magnitude + tiny * (1 + reach);
   return result;
 }
 

@@ -13,6 +13,8 @@
 #include "harness/campaign/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/query/parts_proofs.h"
+#include "harness/commands/query/proofs.h"
 #include "harness/commands/query/query_concave.h"
 #include "harness/commands/query/query_rows.h"
 #include "harness/commands/shared_options.h"
@@ -46,6 +48,8 @@ struct QueryOptions {
   std::string cases, narrow, out, id, pairs, contacts;
   bool welded = false;
   std::string mid = "wide-bvh", parts = "certified";
+  std::string saved, certificates;  // files of proofs; none if empty
+  std::optional<QueryTask> given;
   QueryTask asked = query_tasks()[0].second;
   Task task = Task::intersect;  // of narrow phases
   NarrowPhaseSettings settings;
@@ -175,8 +179,21 @@ void ask_narrow_phases(const QueryOptions& options, const std::vector<files::Cas
   summary.print();
 }
 
-void query(QueryOptions& options, const HeededBySome& heeded) {
-  const std::vector<files::ConcaveCase> cases = asked_cases(options);
+void check_saved(const QueryOptions& options) {
+  if (options.saved.empty()) return;
+  if (!options.asked.of_concave) {
+    throw base::InputError(fmt::format(
+        "--save-certificates was given with --task {}; expected intersect, distance or contacts",
+        to_string(*options.asked.of_convex)));
+  }
+  files::check_outputs({{"CASES", options.cases}}, {{"--out", options.out},
+                                                    {"--pairs", options.pairs},
+                                                    {"--contacts", options.contacts},
+                                                    {"--save-certificates", options.saved}});
+}
+
+void query(QueryOptions& options, const HeededBySome& heeded,
+           const std::vector<files::ConcaveCase>& cases) {
   if (!options.pairs.empty() && options.asked.of_convex) {
     throw base::InputError("--pairs was given; expected it with --task contacts alone");
   }
@@ -198,18 +215,29 @@ void query(QueryOptions& options, const HeededBySome& heeded) {
   ask_narrow_phases(options, convex);
 }
 
+void query(QueryOptions& options, const HeededBySome& heeded) {
+  expect_without_certificates(options.cases, "CASES");
+  expect_without_certificates(options.narrow, "--narrow");
+  expect_without_certificates(options.given ? "given" : "", "--task");
+  expect_without_certificates(options.out, "--out");
+  options.asked = *options.given;
+  const std::vector<files::ConcaveCase> cases = asked_cases(options);
+  check_saved(options);
+  query(options, heeded, cases);
+  if (!options.saved.empty()) save_parts_proofs(options.saved, *options.asked.of_concave, cases);
+}
+
 }  // namespace
 
 void add_query(Arguments command) {
   const auto options = std::make_shared<QueryOptions>();
   NarrowPhaseSettings& settings = options->settings;
-  command.text("CASES", options->cases, "Cases: JSON, one object a line").required();
-  command
-      .text(
-          "--narrow", options->narrow,
-          "Narrow phases: names joined by commas, or all; for meshes and compounds, concave phases")
-      .required();
-  command.one_of("--task", options->asked, query_tasks(), "What is asked").required();
+  command.text("CASES", options->cases, "Cases: JSON, one object a line (required)");
+  command.text(
+      "--narrow", options->narrow,
+      "Narrow phases: names joined by commas, or all; for meshes and compounds, concave phases "
+      "(required)");
+  command.one_of("--task", options->given, query_tasks(), "What is asked (required)");
   command.text("--id", options->id, "Asks the cases with this id alone");
   command.one_of("--scalar", settings.scalar, scalar_choices(), "What is calculated in")
       .show_default("double");
@@ -238,7 +266,7 @@ void add_query(Arguments command) {
               "of convex parts, by --parts other than certified, which has none")
       .positive();
   add_time_limit(command, options->time_limit).show_default();
-  command.text("--out", options->out, "The CSV file to write").required();
+  command.text("--out", options->out, "The CSV file to write (required)");
   command.text("--pairs", options->pairs,
                "With --task contacts: the CSV file of the pairs of parts that share a point");
   command.text("--contacts", options->contacts,
@@ -254,7 +282,13 @@ void add_query(Arguments command) {
                            .text("--parts", options->parts,
                                  "Concave phases: the narrow phase for pairs of convex parts")
                            .show_default();
-  command.job([options, heeded = HeededBySome{margin, duality_gap, mid, parts}] {
+  command.text("--save-certificates", options->saved,
+               "With --task intersect, distance or contacts: also prove the exact answer of each "
+               "case, and write the proofs to this file");
+  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
+  command.exclude_others("--certificates");
+  command.job([options, heeded = HeededBySome{margin, duality_gap, mid, parts}]() -> int {
+    if (!options->certificates.empty()) return verify_parts_proofs(options->certificates);
     query(*options, heeded);
     return exit_done;
   });

@@ -14,18 +14,22 @@ bool names_convex(const JsonNode& body) {
 
 }  // namespace
 
+ConcaveCase read_concave_case(const JsonNode& line) {
+  line.as_object("a case: an object with \"id\", \"a\" and \"b\"");
+  ConcaveCase c;
+  c.line = line.line();
+  c.id = line.at("id", "a string").text("a string");
+  const JsonNode a = line.at("a", "the first body"), b = line.at("b", "the second body");
+  c.a = read_concave_body(a, c.pose_a);
+  c.b = read_concave_body(b, c.pose_b);
+  c.is_convex = names_convex(a) && names_convex(b);
+  return c;
+}
+
 std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file) {
   std::vector<ConcaveCase> cases;
-  for_each_json_line(file, "case", [&](const JsonNode& line) {
-    line.as_object("a case: an object with \"id\", \"a\" and \"b\"");
-    ConcaveCase& c = cases.emplace_back();
-    c.line = line.line();
-    c.id = line.at("id", "a string").text("a string");
-    const JsonNode a = line.at("a", "the first body"), b = line.at("b", "the second body");
-    c.a = read_concave_body(a, c.pose_a);
-    c.b = read_concave_body(b, c.pose_b);
-    c.is_convex = names_convex(a) && names_convex(b);
-  });
+  for_each_json_line(file, "case",
+                     [&](const JsonNode& line) { cases.push_back(read_concave_case(line)); });
   return cases;
 }
 

@@ -9,6 +9,7 @@
 #include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/pose.h"
 #include "harness/files/cases.h"
+#include "harness/files/json_line.h"
 
 namespace touchstone::files {
 
@@ -24,6 +25,9 @@ struct ConcaveCase {
 // InputError for what read_cases throws it for, and for a triangle without three numbers of
 // vertices, and a solid whose surface is open.
 std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file);
+
+// The case of one line.
+ConcaveCase read_concave_case(const JsonNode& line);
 
 // One line, without the line break, that read_concave_cases turns into the same bits. A compound's parts
 // are written one by one.

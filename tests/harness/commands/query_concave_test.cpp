@@ -44,6 +44,49 @@ class ConcaveQueryCommand : public ::testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(ConcaveQueryCommand, CertificatesAreSavedAndVerified) {
+  const std::string proofs = (folder.path() / "proofs.jsonl").string();
+  for (const std::string task : {"intersect", "distance", "contacts"}) {
+    const Ran saved = run("--narrow fused --task " + task + " --save-certificates " + proofs);
+    ASSERT_EQ(saved.status, 0) << saved.text;
+    EXPECT_THAT(saved.text, HasSubstr("4 certificates in"));
+    const Ran verified = run_program("query --certificates " + proofs);
+    EXPECT_EQ(verified.status, 0) << verified.text;
+    EXPECT_THAT(verified.text, HasSubstr("4 certificates verified, 0 refused"));
+  }
+  std::string text = folder.read("proofs.jsonl");
+  const auto place = text.find("\"answer\":\"separated\"");
+  ASSERT_NE(place, std::string::npos);
+  const auto changed =
+      folder.write("changed.jsonl", text.replace(place, 20, "\"answer\":\"unknown\""));
+  const Ran refused = run_program("query --certificates " + changed.string());
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.text, HasSubstr("changed.jsonl:3: apart: "));
+  EXPECT_THAT(refused.text, HasSubstr("3 certificates verified, 1 refused"));
+  const auto broken = folder.write("broken.jsonl", R"({"id":"x"})");
+  EXPECT_THAT(run_program("query --certificates " + broken.string()).text,
+              HasSubstr("broken.jsonl:1: no \"a\""));
+  EXPECT_EQ(run_program("query --certificates " + proofs + " --narrow fused").status, 2);
+  EXPECT_THAT(run_program("query in.jsonl --narrow fused").text,
+              HasSubstr("--task is missing; expected it, or --certificates alone"));
+}
+
+// Convex cases have them too, but not for a depth.
+TEST_F(ConcaveQueryCommand, CertificatesOfConvexCases) {
+  const std::string balls = R"({"id":"balls","a":{"shape":{"type":"sphere","radius":1}},)"
+                            R"("b":{"shape":{"type":"sphere","radius":1},"translation":[2,0,0]}})";
+  const std::string proofs = (folder.path() / "proofs.jsonl").string();
+  const std::string save = " --save-certificates " + proofs;
+  for (const std::string task : {"intersect", "distance"}) {
+    const Ran saved = run("--narrow certified --task " + task + save, balls);
+    ASSERT_EQ(saved.status, 0) << saved.text;
+    EXPECT_EQ(run_program("query --certificates " + proofs).status, 0);
+  }
+  const Ran depth = run("--narrow certified --task penetration" + save, balls);
+  EXPECT_EQ(depth.status, 2);
+  EXPECT_THAT(depth.text, HasSubstr("--save-certificates was given with --task penetration"));
+}
+
 TEST_F(ConcaveQueryCommand, Contacts) {
   const Ran ran = run("--narrow fused,part-pairs,exact --task contacts --pairs " +
                       (folder.path() / "pairs.csv").string());

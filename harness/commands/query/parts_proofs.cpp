@@ -1,0 +1,46 @@
+// Saves and verifies certificates of pairs of bodies.
+#include "harness/commands/query/parts_proofs.h"
+
+#include "algorithms/oracle/certificates/parts/parts_certificate_check.h"
+#include "algorithms/oracle/concave/exact_parts_proofs.h"
+#include "harness/commands/query/proofs.h"
+#include "harness/files/proofs/parts_certificates.h"
+
+namespace touchstone::commands {
+namespace {
+
+using oracle::PartsCertificate;
+
+PartsCertificate::Claim claim_of(ConcaveTask task) {
+  switch (task) {
+    case ConcaveTask::distance: return PartsCertificate::Claim::distance;
+    case ConcaveTask::contacts: return PartsCertificate::Claim::contacts;
+    default: return PartsCertificate::Claim::intersect;
+  }
+}
+
+}  // namespace
+
+void save_parts_proofs(const std::string& file, ConcaveTask task,
+                       const std::vector<files::ConcaveCase>& cases) {
+  SavedCertificates saved(file);
+  for (const files::ConcaveCase& c : cases) {
+    const files::StoredPartsCertificate stored{
+        c, oracle::prove_parts(claim_of(task), c.a, c.pose_a, c.b, c.pose_b)};
+    saved.add(files::to_json(stored));
+  }
+  saved.close();
+}
+
+int verify_parts_proofs(const std::string& file) {
+  Verdicts verdicts(file);
+  files::read_parts_certificates(
+      file, [&](const files::StoredPartsCertificate& stored, std::int64_t line) {
+        const files::ConcaveCase& of = stored.of;
+        verdicts.add(line, of.id,
+                     oracle::fault(stored.certificate, {of.a, of.pose_a}, {of.b, of.pose_b}));
+      });
+  return verdicts.end();
+}
+
+}  // namespace touchstone::commands

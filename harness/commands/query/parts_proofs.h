@@ -1,0 +1,20 @@
+// Certificates of touchstone query, for bodies of both kinds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algorithms/concave_phase.h"
+#include "harness/files/concave/concave_cases.h"
+
+namespace touchstone::commands {
+
+// Proves the exact answer of each case, writes one certificate a line, and prints how many. Throws InputError if the
+// file cannot be written.
+void save_parts_proofs(const std::string& file, ConcaveTask task,
+                       const std::vector<files::ConcaveCase>& cases);
+
+// Returns the program's exit status; prints what is refused and why.
+int verify_parts_proofs(const std::string& file);
+
+}  // namespace touchstone::commands
