@@ -86,6 +86,20 @@ std::vector<RationalVector> RationalCore::points(const std::vector<Generator>& g
   return all;
 }
 
+bool RationalCore::holds_in_world(const RationalVector& point) const {
+  const std::array<RationalVector, 3> columns = {
+      cross(rows_[1], rows_[2]), cross(rows_[2], rows_[0]), cross(rows_[0], rows_[1])};
+  const mpq_class determinant = dot(rows_[0], columns[0]);
+  require(determinant != 0, "the matrix of a part is singular");
+  const RationalVector way = point - translation_;
+  const RationalVector x =
+      1 / determinant * (way[0] * columns[0] + way[1] * columns[1] + way[2] * columns[2]);
+  if (!is_polytope()) return holds(x);
+  require(solid_.is_box, "the core is neither round nor a box");
+  const RationalVector corner = rational_vector(solid_.vertices.back());
+  return abs(x[0]) <= corner[0] && abs(x[1]) <= corner[1] && abs(x[2]) <= corner[2];
+}
+
 void RationalCore::place_plane() {
   const RationalVector n = rational_vector(solid_.normal);
   require(!is_zero(n), "the normal of a half-space is zero");

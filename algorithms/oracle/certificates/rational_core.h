@@ -41,6 +41,9 @@ class RationalCore {
   // point of its plane.
   std::vector<RationalVector> points(const std::vector<Generator>& generators) const;
 
+  // True if a round core, or a box, has the point in world coordinates. Throws Fault if the matrix has no inverse.
+  bool holds_in_world(const RationalVector& point) const;
+
  private:
   void place_plane();
   mpq_class support_in_body(const RationalVector& u) const;

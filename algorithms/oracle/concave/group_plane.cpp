@@ -41,6 +41,16 @@ RoundedGroup::RoundedGroup(const RationalBox& box, const Pose& pose) {
   size = most.maxCoeff();
 }
 
+RoundedGroup::RoundedGroup(const Vec3d& from, const Vec3d& to, const RoundedGroup& other)
+    : centre(from / 2 + to / 2),
+      ways(Mat3d::Zero()),
+      size(std::max(from.lpNorm<Eigen::Infinity>(), to.lpNorm<Eigen::Infinity>())) {
+  ways.col(0) = to / 2 - from / 2;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    across.col(k) = ways.col(0).normalized().cross(Vec3d(other.ways.col(k)).normalized());
+  }
+}
+
 std::optional<IntegerVector> plane_between(const RoundedGroup& a, const RoundedGroup& b,
                                            double apart_by) {
   const Vec3d way = b.centre - a.centre;

@@ -18,6 +18,8 @@ struct RoundedGroup {
   double size;   // no coordinate that went into it is greater (metres)
 
   RoundedGroup(const RationalBox& box, const Pose& pose);
+  // A segment; the normals are those that it has with ways of the other group.
+  RoundedGroup(const Vec3d& from, const Vec3d& to, const RoundedGroup& other);
 };
 
 // A direction from a to b along which the groups are further apart than this, by more than doubles can be wrong; none if

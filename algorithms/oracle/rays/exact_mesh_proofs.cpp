@@ -71,20 +71,23 @@ std::optional<RayCertificate> MeshProver::prove_ray(const Vec3d& origin, const V
 std::optional<PointCertificate> MeshProver::prove_side(const Vec3d& point) {
   const auto answer = solvers_->ask(PointTask::side, point);
   if (!answer) return {};
-  PointCertificate certificate{point, PointCertificate::Claim::surface, no_triangle, {}, 0};
+  std::optional<PointCertificate> certificate(std::in_place);
+  certificate->point = point;
+  certificate->claim = PointCertificate::Claim::surface;
   if (answer->side == PointSide::surface) return certificate;
-  certificate.claim = answer->side == PointSide::inside ? PointCertificate::Claim::inside
-                                                        : PointCertificate::Claim::outside;
-  certificate.winding = exact_winding(mesh_, Pose{}, point, Pose{});
+  certificate->claim = answer->side == PointSide::inside ? PointCertificate::Claim::inside
+                                                         : PointCertificate::Claim::outside;
+  certificate->winding = exact_winding(mesh_, Pose{}, point, Pose{});
   return certificate;
 }
 
 std::optional<PointCertificate> MeshProver::prove_nearest(const Vec3d& point) {
   const auto answer = solvers_->ask(PointTask::closest, point);
   if (!answer) return {};
-  PointCertificate certificate{point, PointCertificate::Claim::nearest, no_triangle, {}, 0};
+  std::optional<PointCertificate> certificate(std::in_place);
+  certificate->point = point;
   if (answer->triangle == PointAnswer::no_triangle) return certificate;
-  certificate.triangle = answer->triangle;
+  certificate->triangle = answer->triangle;
   const auto places = corners(answer->triangle);
   int exponent = least_exponent(point);
   for (const Vec3d& place : places) exponent = std::min(exponent, least_exponent(place));
@@ -94,7 +97,7 @@ std::optional<PointCertificate> MeshProver::prove_nearest(const Vec3d& point) {
       nearest_of({on_grid(places[0], exponent) - from, on_grid(places[1], exponent) - from,
                   on_grid(places[2], exponent) - from});
   const int power = 2 * exponent;
-  certificate.square =
+  certificate->square =
       without_twos(power >= 0 ? Integer(nearest.top << power) : nearest.top,
                    power >= 0 ? nearest.bottom : Integer(nearest.bottom << -power));
   return certificate;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algorithms/core/nearest_float.h"
+#include "algorithms/oracle/certificates/parts/body_ray_check.h"
 #include "algorithms/oracle/certificates/parts/mesh_certificate_check.h"
 #include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
@@ -89,12 +90,26 @@ void save_ray_proofs(TriangleMesh mesh, const std::vector<Ray>& rays, const Rays
 
 int verify_ray_proofs(const std::string& file) {
   Verdicts verdicts(file);
+  const auto name = [](const auto& stored) { return fmt::format("ray {}", stored.ray); };
   std::optional<oracle::CheckedMesh> mesh;
+  ConcaveBody body;
+  std::optional<oracle::CheckedBody> checked;
   files::read_ray_certificates(
-      file, [&](const TriangleMesh& read) { mesh.emplace(read); },
-      [&](const files::StoredRayCertificate& stored, std::int64_t line) {
-        verdicts.add(line, fmt::format("ray {}", stored.ray), mesh->fault(stored.certificate));
-      });
+      file, {.mesh = [&](const TriangleMesh& read) { mesh.emplace(read); },
+             .at_mesh =
+                 [&](const files::StoredRayCertificate& stored, std::int64_t line) {
+                   verdicts.add(line, name(stored), mesh->fault(stored.certificate));
+                 },
+             .body =
+                 [&](const ConcaveBody& read, const Pose& pose) {
+                   checked.reset();
+                   body = read;
+                   checked.emplace(oracle::PlacedBody{body, pose});
+                 },
+             .at_body =
+                 [&](const files::StoredBodyRayCertificate& stored, std::int64_t line) {
+                   verdicts.add(line, name(stored), checked->fault(stored.certificate));
+                 }});
   return verdicts.end();
 }
 
@@ -132,12 +147,7 @@ void cast_rays_at_target(RaysOptions& options) {
   expect_without_certificates(options.asked ? "given" : "", "--task");
   expect_without_certificates(options.out, "--out");
   options.task = *options.asked;
-  if (is_scene(options.target)) {
-    if (!options.saved.empty()) {
-      throw base::InputError("--save-certificates: FILE is a scene; expected a mesh");
-    }
-    return cast_rays_at_scene(options);
-  }
+  if (is_scene(options.target)) return cast_rays_at_scene(options);
   if (options.frame != 0) throw base::InputError("--frame: a mesh has no frames");
   cast_rays(options);
 }
@@ -163,7 +173,8 @@ void add_rays(Arguments command) {
   command.text("--out", options->out, "The CSV file to write (required)");
   command.text(
       "--save-certificates", options->saved,
-      "Also prove the exact answer for each ray at a mesh, and write the proofs to this file");
+      "Also prove the exact answer for each ray, and write the proofs to this file; a scene "
+      "has to be of one body");
   command.text("--certificates", options->certificates, "Only verify the proofs in this file");
   command.exclude_others("--certificates");
   command.job([options]() -> int {

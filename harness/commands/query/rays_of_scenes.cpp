@@ -6,12 +6,15 @@
 #include <memory>
 #include <utility>
 
+#include "algorithms/oracle/rays/exact_body_ray_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/campaign/selection.h"
+#include "harness/commands/query/proofs.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/files/proofs/body_ray_certificates.h"
 #include "harness/process/isolate.h"
 #include "harness/scene/player.h"
 
@@ -90,6 +93,28 @@ void write_scene_row(files::CsvWriter& csv, const std::vector<SceneBody>& bodies
   csv.end_row();
 }
 
+// The one body of the scene whose rays can be proven.
+const SceneBody& only_body(const std::vector<SceneBody>& bodies, const RaysOptions& options) {
+  if (bodies.size() == 1) return bodies[0];
+  throw base::InputError(
+      fmt::format("--save-certificates: {} has {} bodies; expected a mesh, or a scene of one body",
+                  options.target, bodies.size()));
+}
+
+// Proves the exact answer for each ray.
+void save_body_ray_proofs(const SceneBody& body, const std::vector<Ray>& rays,
+                          const RaysOptions& options) {
+  SavedCertificates saved(options.saved);
+  saved.head(files::body_line(body.body, body.pose));
+  oracle::BodyRayProver prover(body.body, body.pose);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto certificate = prover.prove(rays[i].origin, rays[i].direction, rays[i].t_max,
+                                          options.task == RayTask::closest);
+    if (certificate) saved.add(files::to_json(files::StoredBodyRayCertificate{i, *certificate}));
+  }
+  saved.close();
+}
+
 }  // namespace
 
 bool is_scene(const std::string& file) {
@@ -107,7 +132,9 @@ void cast_rays_at_scene(const RaysOptions& options) {
   const std::vector<Ray> rays = read_rays(options.rays);
   std::vector<files::NamedFile> inputs = scene.inputs();
   inputs.push_back({"--rays", options.rays});
-  files::check_outputs(inputs, std::vector<files::NamedFile>{{"--out", options.out}});
+  files::check_outputs(inputs, std::vector<files::NamedFile>{
+                                   {"--out", options.out}, {"--save-certificates", options.saved}});
+  const SceneBody* const proven = options.saved.empty() ? nullptr : &only_body(bodies, options);
   std::vector<SceneCast> casts;
   casts.reserve(entries.size());
   for (const SceneRayCastEntry* entry : entries)
@@ -125,6 +152,7 @@ void cast_rays_at_scene(const RaysOptions& options) {
     for (const SceneRayHit& hit : cast.hits) summary.add(hit.hit, hit.status);
   }
   print_summaries(summaries);
+  if (proven != nullptr) save_body_ray_proofs(*proven, rays, options);
 }
 
 }  // namespace touchstone::commands

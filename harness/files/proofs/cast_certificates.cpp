@@ -9,15 +9,6 @@ namespace {
 
 using oracle::CastCertificate;
 
-CastAnswer read_cast_answer(const JsonNode& node) {
-  constexpr std::string_view expected = "hit, miss or unknown";
-  const std::string& text = node.text(expected);
-  for (const CastAnswer answer : {CastAnswer::hit, CastAnswer::miss, CastAnswer::unknown}) {
-    if (text == to_string(answer)) return answer;
-  }
-  node.fail(fmt::format("found {}; expected {}", node.found(), expected));
-}
-
 CastCertificate::Plane read_plane(const JsonNode& node) {
   node.as_object("a plane: an object with \"until\" and \"direction\"");
   return {read_fraction(node.at("until", "a time")),

@@ -2,27 +2,19 @@
 #include "harness/files/proofs/mesh_certificates.h"
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <string_view>
 #include <utility>
 
 #include "harness/files/concave/concave_json.h"
 #include "harness/files/proofs/proof_json.h"
+#include "harness/files/proofs/ray_json.h"
 
 namespace touchstone::files {
 namespace {
 
 using oracle::PointCertificate;
 using oracle::RayCertificate;
-
-double read_end(const JsonNode& node) {
-  if (node.value() == "inf") return std::numeric_limits<double>::infinity();
-  if (!node.value().is_number()) {
-    node.fail(fmt::format("found {}; expected a number, or \"inf\"", node.found()));
-  }
-  return node.number();
-}
 
 bool read_boolean(const JsonNode& node) {
   if (!node.value().is_boolean()) {
@@ -38,14 +30,6 @@ std::int32_t read_winding(const JsonNode& node) {
     node.fail(fmt::format("found {}; expected how often the surface winds", node.found()));
   }
   return value.get<std::int32_t>();
-}
-
-bool is_first(const JsonNode& node) {
-  const std::string& text = node.text("closest or any");
-  if (text != "closest" && text != "any") {
-    node.fail(fmt::format("found {}; expected closest or any", node.found()));
-  }
-  return text == "closest";
 }
 
 using Claim = PointCertificate::Claim;
@@ -66,16 +50,14 @@ Claim read_claim(const JsonNode& node) {
 
 std::string_view name_of(Claim claim) { return claims[static_cast<std::size_t>(claim)].first; }
 
-std::uint64_t read_number(const JsonNode& node) { return read_index(node); }
-
 StoredRayCertificate read_ray(const JsonNode& line) {
-  StoredRayCertificate stored;
-  stored.ray = read_number(line.at("ray", "the number of a ray"));
+  const RayFields fields = read_ray_fields(line);
+  StoredRayCertificate stored{fields.ray, {}};
   RayCertificate& certificate = stored.certificate;
-  certificate.is_first = is_first(line.at("task", "closest or any"));
-  certificate.origin = line.at("origin", "an array of 3 numbers").vector();
-  certificate.direction = line.at("direction", "an array of 3 numbers").vector();
-  certificate.t_max = read_end(line.at("t_max", "a number, or \"inf\""));
+  certificate.is_first = fields.is_first;
+  certificate.origin = fields.origin;
+  certificate.direction = fields.direction;
+  certificate.t_max = fields.t_max;
   certificate.hit = read_boolean(line.at("hit", "true or false"));
   if (certificate.hit) {
     certificate.triangle = read_index(line.at("triangle", "the number of a triangle"));
@@ -90,7 +72,7 @@ StoredRayCertificate read_ray(const JsonNode& line) {
 
 StoredPointCertificate read_at(const JsonNode& line) {
   StoredPointCertificate stored;
-  stored.point = read_number(line.at("point", "the number of a point"));
+  stored.point = read_index(line.at("point", "the number of a point"));
   PointCertificate& certificate = stored.certificate;
   certificate.point = line.at("at", "an array of 3 numbers").vector();
   certificate.claim = read_claim(line.at("claim", expected_claims));
@@ -105,25 +87,6 @@ StoredPointCertificate read_at(const JsonNode& line) {
   return stored;
 }
 
-OrderedJson vector_to_json(const Vec3d& v) { return {v.x(), v.y(), v.z()}; }
-
-template <class Read, class Each>
-void read_at_meshes(const std::filesystem::path& file,
-                    const std::function<void(const TriangleMesh&)>& mesh, const Read& read,
-                    const Each& each) {
-  bool has_mesh = false;
-  for_each_json_line(file, "certificate", [&](const JsonNode& line) {
-    line.as_object("a certificate, or an object with \"mesh\"");
-    if (line.has("mesh")) {
-      mesh(*read_mesh(line.at("mesh", "a mesh")));
-      has_mesh = true;
-      return;
-    }
-    if (!has_mesh) line.fail("a certificate before any mesh; expected an object with \"mesh\"");
-    each(read(line), line.line());
-  });
-}
-
 }  // namespace
 
 std::string mesh_line(const TriangleMesh& mesh) {
@@ -134,16 +97,8 @@ std::string mesh_line(const TriangleMesh& mesh) {
 
 std::string to_json(const StoredRayCertificate& stored) {
   const RayCertificate& certificate = stored.certificate;
-  OrderedJson out;
-  out["ray"] = stored.ray;
-  out["task"] = certificate.is_first ? "closest" : "any";
-  out["origin"] = vector_to_json(certificate.origin);
-  out["direction"] = vector_to_json(certificate.direction);
-  if (std::isfinite(certificate.t_max)) {
-    out["t_max"] = certificate.t_max;
-  } else {
-    out["t_max"] = "inf";
-  }
+  OrderedJson out = ray_fields_to_json({stored.ray, certificate.is_first, certificate.origin,
+                                        certificate.direction, certificate.t_max});
   out["hit"] = certificate.hit;
   if (certificate.hit) {
     out["triangle"] = certificate.triangle;
@@ -156,7 +111,7 @@ std::string to_json(const StoredPointCertificate& stored) {
   const PointCertificate& certificate = stored.certificate;
   OrderedJson out;
   out["point"] = stored.point;
-  out["at"] = vector_to_json(certificate.point);
+  out["at"] = {certificate.point.x(), certificate.point.y(), certificate.point.z()};
   out["claim"] = name_of(certificate.claim);
   if (certificate.claim == Claim::inside || certificate.claim == Claim::outside) {
     out["winding"] = certificate.winding;
@@ -167,16 +122,42 @@ std::string to_json(const StoredPointCertificate& stored) {
   return out.dump();
 }
 
-void read_ray_certificates(
-    const std::filesystem::path& file, const std::function<void(const TriangleMesh&)>& mesh,
-    const std::function<void(const StoredRayCertificate&, std::int64_t line)>& each) {
-  read_at_meshes(file, mesh, read_ray, each);
+void read_ray_certificates(const std::filesystem::path& file, const RayTargets& targets) {
+  enum class Target : std::uint8_t { none, mesh, body } target = Target::none;
+  for_each_json_line(file, "certificate", [&](const JsonNode& line) {
+    line.as_object("a certificate, or an object with \"mesh\" or \"body\"");
+    if (line.has("mesh")) {
+      targets.mesh(*read_mesh(line.at("mesh", "a mesh")));
+      target = Target::mesh;
+    } else if (line.has("body")) {
+      Pose pose;
+      const ConcaveBody body = read_concave_body(line.at("body", "a body"), pose);
+      targets.body(body, pose);
+      target = Target::body;
+    } else if (target == Target::mesh) {
+      targets.at_mesh(read_ray(line), line.line());
+    } else if (target == Target::body) {
+      targets.at_body(read_body_ray(line), line.line());
+    } else {
+      line.fail("a certificate before any mesh; expected an object with \"mesh\" or \"body\"");
+    }
+  });
 }
 
 void read_point_certificates(
     const std::filesystem::path& file, const std::function<void(const TriangleMesh&)>& mesh,
     const std::function<void(const StoredPointCertificate&, std::int64_t line)>& each) {
-  read_at_meshes(file, mesh, read_at, each);
+  bool has_mesh = false;
+  for_each_json_line(file, "certificate", [&](const JsonNode& line) {
+    line.as_object("a certificate, or an object with \"mesh\"");
+    if (line.has("mesh")) {
+      mesh(*read_mesh(line.at("mesh", "a mesh")));
+      has_mesh = true;
+      return;
+    }
+    if (!has_mesh) line.fail("a certificate before any mesh; expected an object with \"mesh\"");
+    each(read_at(line), line.line());
+  });
 }
 
 }  // namespace touchstone::files

@@ -17,6 +17,7 @@
 
 #include "algorithms/core/mesh/triangle_mesh.h"
 #include "algorithms/oracle/certificates/parts/mesh_certificates.h"
+#include "harness/files/proofs/body_ray_certificates.h"
 
 namespace touchstone::files {
 
@@ -35,12 +36,18 @@ std::string mesh_line(const TriangleMesh& mesh);
 std::string to_json(const StoredRayCertificate& certificate);
 std::string to_json(const StoredPointCertificate& certificate);
 
-// Call `mesh` for each mesh, and `each` for each certificate with its line, in order. Throw InputError
-// with file, line, key and the expected value for what is malformed, and for a certificate before any mesh;
-// certificates before that were valid. They do not check whether a certificate proves anything.
-void read_ray_certificates(
-    const std::filesystem::path& file, const std::function<void(const TriangleMesh&)>& mesh,
-    const std::function<void(const StoredRayCertificate&, std::int64_t line)>& each);
+// What is done with each mesh and body in a file, and with each certificate of a ray at the one before it.
+struct RayTargets {
+  std::function<void(const TriangleMesh&)> mesh;
+  std::function<void(const StoredRayCertificate&, std::int64_t line)> at_mesh;
+  std::function<void(const ConcaveBody&, const Pose&)> body;
+  std::function<void(const StoredBodyRayCertificate&, std::int64_t line)> at_body;
+};
+
+// Call these, in order. Throw InputError with file, line, key and the expected value for what is malformed, and for a
+// certificate before any mesh or body; certificates before that were valid. They do not check whether a certificate
+// proves anything.
+void read_ray_certificates(const std::filesystem::path& file, const RayTargets& targets);
 void read_point_certificates(
     const std::filesystem::path& file, const std::function<void(const TriangleMesh&)>& mesh,
     const std::function<void(const StoredPointCertificate&, std::int64_t line)>& each);

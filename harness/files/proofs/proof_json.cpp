@@ -81,6 +81,15 @@ oracle::TimeFraction read_fraction(const JsonNode& node) {
   return {numerator, denominator};
 }
 
+CastAnswer read_cast_answer(const JsonNode& node) {
+  constexpr std::string_view expected = "hit, miss or unknown";
+  const std::string& text = node.text(expected);
+  for (const CastAnswer answer : {CastAnswer::hit, CastAnswer::miss, CastAnswer::unknown}) {
+    if (text == to_string(answer)) return answer;
+  }
+  node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+}
+
 oracle::DifferencePoint read_point(const JsonNode& node) {
   const auto [a, b] = read_items<2>(node, "indices", read_index);
   return {a, b};

@@ -13,6 +13,7 @@ namespace touchstone::files {
 std::uint32_t read_index(const JsonNode& node);
 oracle::Integer read_integer(const JsonNode& node);
 oracle::TimeFraction read_fraction(const JsonNode& node);
+CastAnswer read_cast_answer(const JsonNode& node);
 oracle::DifferencePoint read_point(const JsonNode& node);
 std::vector<oracle::Generator> read_generators(const JsonNode& node);
 std::vector<oracle::Certificate::Term> read_terms(const JsonNode& node);

@@ -35,7 +35,10 @@ class MeshCertificates : public ::testing::Test {
     const auto mesh = [&](const TriangleMesh& read) { out += files::mesh_line(read) + "\n"; };
     const auto each = [&](const auto& stored, std::int64_t) { out += to_json(stored) + "\n"; };
     if (of_rays) {
-      files::read_ray_certificates(file, mesh, each);
+      const auto body = [&](const ConcaveBody& read, const Pose& pose) {
+        out += files::body_line(read, pose) + "\n";
+      };
+      files::read_ray_certificates(file, {mesh, each, body, each});
     } else {
       files::read_point_certificates(file, mesh, each);
     }
@@ -67,6 +70,42 @@ TEST_F(MeshCertificates, AreReadAsTheyWereWritten) {
                              "\n" + R"({"point":4,"at":[0.1,0.0,1.0],"claim":"surface"})" + "\n" +
                              R"({"point":4,"at":[0.1,0.0,1.0],"claim":"nearest"})" + "\n";
   EXPECT_EQ(rewritten(points, false), points);
+}
+
+const std::string body_text =
+    R"({"body":{"shape":{"type":"sphere","radius":1.0},"translation":[0.0,0.0,1.0],)"
+    R"("rotation":[1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0]}})";
+const std::string at_body =
+    R"({"ray":7,"task":"any","origin":[0.1,0.0,3.0],"direction":[0.0,0.0,-1.0],"t_max":5.0,)"
+    R"("answer":"hit","lower":["1","3"],"upper":["2","3"],"part":4,"generators":[0,3],)"
+    R"("surface":{"points":[[0,1]],"triangles":[[0,1,2]]},"order":[1,0],)"
+    R"("cover":["halve",["1","-2","0"],"own","triangle"]})";
+
+TEST_F(MeshCertificates, OfRaysAtBodies) {
+  const std::string once = rewritten(body_text + "\n" + at_body + "\n", true);
+  EXPECT_THAT(once, HasSubstr("\n" + at_body + "\n"));
+  EXPECT_EQ(rewritten(once, true), once);
+  // A file may have both.
+  const std::string both = once + mesh_text + "\n" + ray_text + "\n";
+  EXPECT_EQ(rewritten(both, true), both);
+  const auto expect_body_fault = [&](const std::string& part, const std::string& other,
+                                     const std::string& said) {
+    std::string text = at_body;
+    const auto place = text.find(part);
+    ASSERT_NE(place, std::string::npos) << part;
+    text.replace(place, part.size(), other);
+    EXPECT_THAT(fault(body_text + "\n" + text, true), HasSubstr("in.jsonl:2: " + said));
+  };
+  for (const std::string key : {"ray", "task", "origin", "direction", "t_max", "answer", "lower",
+                                "upper", "part", "generators", "surface", "order", "cover"}) {
+    expect_body_fault("\"" + key + "\":", "\"x\":", "no \"" + key + "\"");
+  }
+  expect_body_fault("\"hit\"", "\"overlapping\"", "answer: found \"overlapping\"");
+  expect_body_fault("\"own\"", "\"plane\"", "cover[2]: found \"plane\"");
+  expect_body_fault("[\"1\",\"3\"]", "[\"1\"]", "lower: found an array of 1");
+  expect_body_fault("\"order\":[1,0]", "\"order\":[1,0.5]", "order[1]: found 0.5");
+  EXPECT_THAT(fault(R"({"body":{"shape":{"type":"sphere","radius":-1}}})", true),
+              HasSubstr("in.jsonl:1: body.shape.radius"));
 }
 
 TEST_F(MeshCertificates, WhatIsMalformedIsToldWithItsPlace) {

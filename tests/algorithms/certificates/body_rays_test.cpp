@@ -1,0 +1,220 @@
+// Answers to rays at bodies of many parts are proven, and no changed claim is.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "algorithms/oracle/certificates/parts/body_ray_check.h"
+#include "algorithms/oracle/rays/exact_body_ray_proofs.h"
+#include "harness/families/aimed_rays.h"
+#include "tests/algorithms/certificates/bodies.h"
+
+namespace touchstone {
+namespace {
+
+using oracle::BodyRayCertificate;
+using oracle::BodyRayProver;
+using oracle::CheckedBody;
+using reference::body_of;
+using reference::moved_by;
+using RayKind = BodyRayCertificate::Step::Kind;
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
+
+double value_of(const oracle::TimeFraction& t) {
+  return mpq_class(oracle::rational(t.numerator) / oracle::rational(t.denominator)).get_d();
+}
+
+SceneRayHit solved(const ConcaveBody& body, const Pose& pose, const BodyRayCertificate& of) {
+  const auto cast = find_scene_ray_cast("exact")->make();
+  const std::vector<SceneBody> bodies = {{body, pose}};
+  cast->bind(bodies);
+  const Ray ray{of.origin, of.direction, of.t_max};
+  SceneRayHit hit;
+  cast->cast(of.is_first ? RayTask::closest : RayTask::any, {&ray, 1}, {&hit, 1});
+  return hit;
+}
+
+struct RayCounts {
+  int hits = 0, misses = 0, unknown = 0, exact = 0, narrow = 0;
+};
+
+void expect_ray_proven(const ConcaveBody& body, const Pose& pose, const Ray& ray,
+                       const std::string& what, RayCounts& counts) {
+  BodyRayProver prover(body, pose);
+  const CheckedBody checked({body, pose});
+  for (const bool is_first : {true, false}) {
+    const auto proof = prover.prove(ray.origin, ray.direction, ray.t_max, is_first);
+    ASSERT_TRUE(proof) << what;
+    EXPECT_EQ(checked.fault(*proof), "") << what;
+    const SceneRayHit hit = solved(body, pose, *proof);
+    switch (proof->answer) {
+      case CastAnswer::unknown: ++counts.unknown; continue;
+      case CastAnswer::miss:
+        ++counts.misses;
+        EXPECT_FALSE(hit.hit) << what;
+        continue;
+      default: break;
+    }
+    ++counts.hits;
+    EXPECT_TRUE(hit.hit) << what;
+    const double lower = value_of(proof->lower), upper = value_of(proof->upper);
+    EXPECT_NEAR(upper, hit.t, 1e-5 * hit.t) << what;
+    if (!is_first) continue;
+    EXPECT_LE(lower, hit.t * (1 + 1e-9)) << what;
+    counts.exact += lower == upper ? 1 : 0;
+    counts.narrow += upper - lower <= 1e-9 * upper ? 1 : 0;
+  }
+}
+
+TEST(BodyRayCertificates, ShapesOfAllKinds) {
+  reference::Random random(3);
+  const std::vector<Shape> shapes = reference::shapes_of_all_kinds();
+  for (std::size_t kind = 0; kind < shapes.size(); ++kind) {
+    RayCounts counts;
+    for (int i = 0; i < 40; ++i) {
+      Pose inner{random.rotation(), random.vector(0.25)},
+          outer{random.rotation(), random.vector(0.5)};
+      if (i % 4 == 0) inner.rotation.col(1) *= 1.5;
+      if (i % 5 == 0) outer.rotation *= -2;
+      const Vec3d origin =
+          i % 10 == 0 ? outer(inner(Vec3d::Constant(0.125))) : Vec3d(3 * random.direction());
+      const Vec3d at = outer(inner.translation) + random.vector(1);
+      const Ray ray{origin, at - origin, i % 3 == 0 ? 0.9 : no_end};
+      const std::string what = "kind " + std::to_string(kind) + ", ray " + std::to_string(i);
+      expect_ray_proven(body_of(shapes[kind], inner), outer, ray, what, counts);
+    }
+    EXPECT_GT(counts.hits, 10) << kind;
+    EXPECT_GT(counts.misses, 10) << kind;
+    EXPECT_LE(counts.unknown, 2) << kind;
+    EXPECT_GT(counts.narrow, counts.hits / 2 - 3) << kind;
+  }
+}
+
+TEST(BodyRayCertificates, CompoundsAndMeshes) {
+  reference::Random random(5);
+  RayCounts counts;
+  for (int i = 0; i < 60; ++i) {
+    const ConcaveBody body = i % 3 == 0 ? body_of(families::torus(16, 9, 1, 0.5, true))
+                                        : reference::compound(random, 4, i % 4 == 0, i % 2 == 0);
+    const Pose pose{random.rotation(), random.vector(1)};
+    const Vec3d origin = 4 * random.direction();
+    const Ray ray{origin, random.vector(1.5) - origin, i % 5 == 0 ? 1.0 : no_end};
+    expect_ray_proven(body, pose, ray, "ray " + std::to_string(i), counts);
+  }
+  EXPECT_GT(counts.hits, 40);
+  EXPECT_GT(counts.misses, 15);
+  EXPECT_GT(counts.exact, 5);
+  EXPECT_LE(counts.unknown, 4);
+}
+
+// At edges and corners of a mesh, along its faces, and off by nothing.
+TEST(BodyRayCertificates, RaysAimedAtMeshes) {
+  const TriangleMesh mesh = families::box_mesh(1, 0.5, 0.25);
+  RayCounts counts;
+  Pose pose = moved_by({0.125, 0.25, 2});
+  pose.rotation.col(0) *= 2;
+  for (Ray ray : families::aimed_rays(mesh, 1, 3)) {
+    ray.origin = pose(ray.origin);
+    ray.direction = pose.rotation * ray.direction;
+    expect_ray_proven(body_of(mesh), pose, ray, "aimed", counts);
+  }
+  EXPECT_EQ(counts.unknown, 0);
+  EXPECT_GT(counts.hits, 50);
+  EXPECT_GT(counts.misses, 10);
+  EXPECT_EQ(counts.exact, counts.hits / 2);
+}
+
+TEST(BodyRayCertificates, EveryChangeIsRefused) {
+  reference::Random random(8);
+  int changes = 0;
+  for (int i = 0; i < 40; ++i) {
+    const ConcaveBody body = i % 2 == 0 ? body_of(families::torus(7, 5, 1, 0.5))
+                                        : reference::compound(random, 3, i % 4 == 1, false);
+    const Pose pose{random.rotation(), random.vector(1)};
+    const CheckedBody checked({body, pose});
+    const Vec3d origin = 4 * random.direction();
+    const auto proof =
+        *BodyRayProver(body, pose).prove(origin, random.vector(1.5) - origin, no_end, true);
+    ASSERT_EQ(checked.fault(proof), "");
+    const auto refused = [&](const std::string& what,
+                             const std::function<void(BodyRayCertificate&)>& change) {
+      BodyRayCertificate changed = proof;
+      change(changed);
+      EXPECT_NE(checked.fault(changed), "") << what << " of " << i;
+      ++changes;
+    };
+    refused("no direction", [](auto& c) { c.direction.setZero(); });
+    refused("no end", [](auto& c) { c.t_max = std::nan(""); });
+    refused("no answer", [](auto& c) { c.answer = static_cast<CastAnswer>(7); });
+    refused("no time", [](auto& c) { c.lower.denominator = 0; });
+    refused("no time", [](auto& c) { c.upper.denominator = 0; });
+    refused("a time before 0", [](auto& c) { c.lower.numerator = -1; });
+    if (proof.answer == CastAnswer::hit) {
+      refused("a miss", [](auto& c) { c.answer = CastAnswer::miss; });
+      refused("no part", [](auto& c) { c.part = 1000; });
+      if (proof.upper.numerator == 0) continue;
+      refused("later", [](auto& c) {
+        c.lower = {c.upper.numerator * 1001, c.upper.denominator * 1000};
+      });
+      refused("before", [](auto& c) {
+        c.upper = {c.upper.numerator * 3, c.upper.denominator * 4};
+      });
+      refused("beyond the end", [&](auto& c) { c.t_max = value_of(c.upper) * 0.999; });
+      if (proof.lower.numerator > 0) refused("any", [](auto& c) { c.is_first = false; });
+    }
+    if (proof.answer == CastAnswer::miss) {
+      refused("a hit", [](auto& c) { c.answer = CastAnswer::hit; });
+      refused("a time of a miss", [](auto& c) { c.lower.numerator = 1; });
+      refused("a part of a miss", [](auto& c) { c.part = 1; });
+    }
+    if (proof.cover.empty()) continue;
+    refused("a part is missing", [](auto& c) { c.order.pop_back(); });
+    refused("a part is there twice", [](auto& c) { c.order.push_back(0); });
+    refused("a part is none", [](auto& c) { c.order[0] = 1000; });
+    refused("a cover too long", [](auto& c) { c.cover.push_back({}); });
+    for (std::size_t k = 0; k < proof.cover.size(); ++k) {
+      refused("a step is missing",
+              [&](auto& c) { c.cover.erase(c.cover.begin() + static_cast<std::ptrdiff_t>(k)); });
+      refused("no step", [&](auto& c) { c.cover[k].kind = static_cast<RayKind>(9); });
+      if (proof.cover[k].kind != RayKind::own_plane) {
+        refused("another step", [&](auto& c) { c.cover[k].kind = RayKind::own_plane; });
+      }
+      if (proof.cover[k].kind != RayKind::plane) continue;
+      refused("no direction", [&](auto& c) { c.cover[k].direction = {}; });
+      refused("the other way", [&](auto& c) {
+        for (auto& x : c.cover[k].direction) x = -x;
+      });
+    }
+  }
+  EXPECT_GT(changes, 500);
+}
+
+TEST(BodyRayCertificates, EndsEmptyBodiesAndImproperRays) {
+  const ConcaveBody ball = body_of(reference::make_sphere(1)), empty{};
+  RayCounts counts;
+  expect_ray_proven(empty, {}, {{0, 0, 3}, {0, 0, -1}, no_end}, "empty", counts);
+  expect_ray_proven(ball, {}, {{0, 0, 3}, {0, 0, -1}, -1}, "nothing of it", counts);
+  expect_ray_proven(ball, {}, {{0, 0, 3}, {0, 0, -1}, 1.75}, "too short", counts);
+  EXPECT_EQ(counts.misses, 6);
+  expect_ray_proven(ball, {}, {{0, 0, 0.5}, {0, 0, -1}, 0}, "from inside", counts);
+  expect_ray_proven(ball, {}, {{0, 0, 3}, {0, 0, -1}, 2}, "to the end", counts);
+  expect_ray_proven(ball, {}, {{1, 0, 3}, {0, 0, -1}, no_end}, "tangent", counts);
+  EXPECT_EQ(counts.hits, 6);
+  EXPECT_EQ(counts.unknown, 0);
+  BodyRayProver prover(ball, {});
+  EXPECT_FALSE(prover.prove({0, 0, 3}, {0, 0, 0}, no_end, true));
+  EXPECT_FALSE(prover.prove({0, 0, no_end}, {0, 0, 1}, no_end, true));
+  EXPECT_FALSE(prover.prove({0, 0, 3}, {0, 0, 1}, std::nan(""), true));
+  ConcaveBody rounded = ball;
+  rounded.parts[0].rounding = 1e-300;
+  EXPECT_FALSE(BodyRayProver(rounded, {}).prove({0, 0, 3}, {0, 0, 1}, no_end, true));
+  const auto proof = prover.prove({0, 0, 3}, {0, 0, 1}, no_end, true);
+  EXPECT_NE(CheckedBody({rounded, {}}).fault(*proof), "");
+}
+
+}  // namespace
+}  // namespace touchstone
