@@ -3,11 +3,11 @@
 // u is half an epsilon; norms are those of the greatest sum of a row's magnitudes.
 //
 // In the frame of a, let A' be about the inverse of a's rotation A: its transpose T; if that is off, as where
-// rotations were rounded to floats, T - F T with F = T A - I, which leaves F F; or else the inverse in doubles. With E = I - A'A the exact place of
-// b's point y is (I - E)^-1 A' (B y + t), t = t_b - t_a. It is off from A' (B y + t) by at most
-// |E| / (1 - |E|) times that, and A' (B y + t) is at most m = |A'| (|B| |y| + |t|). Rounding adds u |t|
-// for the difference, 3 u for each product of three terms, and 4 u for the map of a point: together less
-// than 12 u m. E is computed to 4 u |A'| |A|.
+// rotations were rounded to floats, T - F T with F = T A - I, which leaves F F; or else the inverse in doubles.
+// With E = I - A'A the exact place of b's point y is (I - E)^-1 A' (B y + t), t = t_b - t_a. It is off from A'
+// (B y + t) by at most |E| / (1 - |E|) times that, and A' (B y + t) is at most m = |A'| (|B| |y| + |t|).
+// Rounding adds u |t| for the difference, 3 u for each product of three terms, and 4 u for the map of a point:
+// together less than 12 u m. E is computed to 4 u |A'| |A|.
 //
 // In the moved world a map of three products and two sums is off by at most 4 u times the sum of
 // its magnitudes, and the difference of translations by u more.
@@ -52,8 +52,8 @@ AboutInverse about_inverse(const Mat3d& m) {
   return found;
 }
 
-// Returns true if x y is the same in doubles and exactly. What rounding cuts off a product is at least 2^-106 of it, so
-// that it is a double too unless the product is near the least of them.
+// Returns true if x y is the same in doubles and exactly. What rounding cuts off a product is at least 2^-106
+// of it, so that it is a double too unless the product is near the least of them.
 bool is_exact_product(double x, double y, double product) {
   if (x == 0 || y == 0 || std::abs(x) == 1 || std::abs(y) == 1) return true;
   return std::abs(product) >= tiny * 0x1p106 && std::fma(x, y, -product) == 0;

@@ -1,7 +1,7 @@
 // Walks down the trees of both bodies, as far as it needs to find planes, and asks the oracle about pairs of parts.
 //
-// Poses of parts within bodies are multiplied in doubles for the oracle. Its planes and points are then tried on the exact
-// product, as the check will do, and where they fail there the pair is open.
+// Poses of parts within bodies are multiplied in doubles for the oracle. Its planes and points are then tried
+// on the exact product, as the check will do, and where they fail there the pair is open.
 #include "algorithms/oracle/concave/exact_parts_proofs.h"
 
 #include <algorithm>

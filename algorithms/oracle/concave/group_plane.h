@@ -22,8 +22,8 @@ struct RoundedGroup {
   RoundedGroup(const Vec3d& from, const Vec3d& to, const RoundedGroup& other);
 };
 
-// A direction from a to b along which the groups are further apart than this, by more than doubles can be wrong; none if
-// none of those that are tried is one.
+// A direction from a to b along which the groups are further apart than this, by more than doubles can be
+// wrong; none if none of those that are tried is one.
 std::optional<IntegerVector> plane_between(const RoundedGroup& a, const RoundedGroup& b,
                                            double apart_by);
 

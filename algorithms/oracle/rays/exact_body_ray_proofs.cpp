@@ -1,5 +1,5 @@
-// The exact cast says which part is hit, and about when. Brackets around that are tried, the narrowest first, as the check
-// will try them: each step is decided in rationals before it is written.
+// The exact cast says which part is hit, and about when. Brackets around that are tried, the narrowest first,
+// as the check will try them: each step is decided in rationals before it is written.
 #include "algorithms/oracle/rays/exact_body_ray_proofs.h"
 
 #include <algorithm>

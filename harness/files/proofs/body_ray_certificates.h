@@ -1,4 +1,5 @@
-// Certificates of rays at a body of many parts as JSON. The body, as in cases (concave_json.h), comes before the rays at it:
+// Certificates of rays at a body of many parts as JSON. The body, as in cases (concave_json.h), comes before
+// the rays at it:
 //   {"body":BODY}
 //   {"ray":0, "task":"closest", "origin":[x,y,z], "direction":[x,y,z], "t_max":"inf", "answer":"hit",
 //    "lower":["1","3"], "upper":["1","2"], "part":5, "generators":[0, ...],
@@ -22,8 +23,8 @@ struct StoredBodyRayCertificate {
   oracle::BodyRayCertificate certificate;
 };
 
-// One line each, without the line break, that read_ray_certificates turns into the same bits. Numbers must be finite, but
-// for t_max.
+// One line each, without the line break, that read_ray_certificates turns into the same bits. Numbers must be
+// finite, but for t_max.
 std::string body_line(const ConcaveBody& body, const Pose& pose);
 std::string to_json(const StoredBodyRayCertificate& certificate);
 

@@ -6,8 +6,8 @@
 //   {"point":0, "at":[x,y,z], "claim":"nearest", "triangle":5, "square":["1","4"]}
 //   {"point":1, "at":[x,y,z], "claim":"inside", "winding":1}
 //   {"point":2, "at":[x,y,z], "claim":"surface"}
-// A miss has neither triangle nor t, and the nearest of an empty mesh neither triangle nor square. t and the squared distance are
-// fractions of two integers; t_max is a number or "inf".
+// A miss has neither triangle nor t, and the nearest of an empty mesh neither triangle nor square. t and the
+// squared distance are fractions of two integers; t_max is a number or "inf".
 #pragma once
 
 #include <cstdint>

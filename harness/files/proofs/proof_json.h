@@ -1,5 +1,5 @@
-// The parts of certificates as JSON: integers, fractions of two of them, generators, points of a difference and surfaces of them.
-// certificates.h has their forms.
+// The parts of certificates as JSON: integers, fractions of two of them, generators, points of a difference and
+// surfaces of them. certificates.h has their forms.
 #pragma once
 
 #include <vector>

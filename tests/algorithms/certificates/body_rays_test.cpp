@@ -193,6 +193,57 @@ TEST(BodyRayCertificates, EveryChangeIsRefused) {
   EXPECT_GT(changes, 500);
 }
 
+// Whatever is changed in a certificate: if it is verified, what it claims is true.
+TEST(BodyRayCertificates, WhatIsVerifiedIsTrue) {
+  reference::Random random(12);
+  int verified = 0, refused = 0;
+  for (int i = 0; i < 60; ++i) {
+    const ConcaveBody body = i % 2 == 0 ? body_of(families::torus(7, 5, 1, 0.5))
+                                        : reference::compound(random, 3, i % 4 == 1, false);
+    const Pose pose{random.rotation(), random.vector(1)};
+    const CheckedBody checked({body, pose});
+    BodyRayProver prover(body, pose);
+    const Vec3d origin = 4 * random.direction();
+    const Vec3d direction = random.vector(1.5) - origin;
+    const auto proof = *prover.prove(origin, direction, no_end, true);
+    const auto other = *prover.prove(origin, direction + random.vector(1), no_end, true);
+    for (int k = 0; k < 60; ++k) {
+      BodyRayCertificate c = proof;
+      for (int n = 0; n <= k % 2; ++n) {
+        switch (random.below(9)) {
+          case 0: c.answer = static_cast<CastAnswer>(random.below(3)); break;
+          case 1: c.lower.numerator *= random.below(3); break;
+          case 2:
+            c.upper = {c.upper.numerator * (900 + random.below(200)), c.upper.denominator * 1000};
+            break;
+          case 3:
+            c.part = static_cast<std::uint32_t>(random.below(static_cast<int>(body.part_count())));
+            break;
+          case 4: c.cover = other.cover; break;
+          case 5: c.is_first = !c.is_first; break;
+          case 6: c.t_max = random.uniform(0, 2); break;
+          case 7: c.direction = other.direction; break;
+          default:
+            c.lower = other.lower;
+            c.upper = other.upper;
+            c.part = other.part;
+            break;
+        }
+      }
+      const bool holds = checked.fault(c).empty();
+      ++(holds ? verified : refused);
+      if (!holds || c.answer == CastAnswer::unknown) continue;
+      const SceneRayHit hit = solved(body, pose, c);
+      EXPECT_EQ(hit.hit, c.answer == CastAnswer::hit);
+      if (c.answer != CastAnswer::hit) continue;
+      EXPECT_GE(value_of(c.upper), hit.t * (1 - 1e-9));
+      EXPECT_LE(value_of(c.lower), hit.t * (1 + 1e-9));
+    }
+  }
+  EXPECT_GT(verified, 200);
+  EXPECT_GT(refused, 1000);
+}
+
 TEST(BodyRayCertificates, EndsEmptyBodiesAndImproperRays) {
   const ConcaveBody ball = body_of(reference::make_sphere(1)), empty{};
   RayCounts counts;

@@ -1,14 +1,15 @@
 // Part of the oracle: what proves where a ray meets a body of many parts. harness/files reads and writes it.
 //
-// No part has a point of the ray at the times [0, lower), of a hit or an unknown answer, or [0, t_max], of a miss. That is
-// shown by a cover, a walk over the tree of the body's parts as in parts_certificate.h. A node is halved; or the planes
-// along a direction part all of its parts from these points of the ray, at the end of a half-open span perhaps with a
-// touch, as the gap is linear in time; or it is one triangle, of which the check finds out by itself.
+// No part has a point of the ray at the times [0, lower), of a hit or an unknown answer, or [0, t_max], of a
+// miss. That is shown by a cover, a walk over the tree of the body's parts as in parts_certificate.h. A node is
+// halved; or the planes along a direction part all of its parts from these points of the ray, at the end of a
+// half-open span perhaps with a touch, as the gap is linear in time; or it is one triangle, of which the check
+// finds out by itself.
 //
-// The part that is hit has the point of the time `upper`. The check finds out by itself, but for hulls of more than three
-// vertices: these need a closed surface of triangles between vertices, each minus the point, around 0. `lower` = `upper` is
-// the exact time. Otherwise the first hit is in the bracket, and which of several parts that are hit there is
-// first is not shown.
+// The part that is hit has the point of the time `upper`. The check finds out by itself, but for hulls of more
+// than three vertices: these need a closed surface of triangles between vertices, each minus the point, around
+// 0. `lower` = `upper` is the exact time. Otherwise the first hit is in the bracket, and which of several parts
+// that are hit there is first is not shown.
 #pragma once
 
 #include <cstdint>

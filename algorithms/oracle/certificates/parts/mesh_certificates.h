@@ -27,9 +27,9 @@ struct RayCertificate {
   TimeFraction t;                        // of a hit
 };
 
-// The nearest triangle: it has a point whose squared distance is the fraction, in square metres, and none has one that
-// is nearer; no triangle if the mesh has none. A side: the surface is closed, and the point is on one of its
-// triangles, or on none, and then the surface winds that often around it; inside is where that is not 0.
+// The nearest triangle: it has a point whose squared distance is the fraction, in square metres, and none has
+// one that is nearer; no triangle if the mesh has none. A side: the surface is closed, and the point is on one
+// of its triangles, or on none, and then the surface winds that often around it; inside is where that is not 0.
 struct PointCertificate {
   enum class Claim : std::uint8_t { nearest, surface, inside, outside };
 

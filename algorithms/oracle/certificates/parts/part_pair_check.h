@@ -21,8 +21,8 @@ struct ApartBy {
 bool is_parted(const RationalVector& n, const RationalCore& a, const RationalCore& b,
                const ApartBy& by);
 
-// The direction from a to b of the plane of the one of them that is a half-space. Throws Fault if none is, or its matrix
-// is singular.
+// The direction from a to b of the plane of the one of them that is a half-space. Throws Fault if none is, or
+// its matrix is singular.
 RationalVector own_normal(const RationalCore& a, const RationalCore& b);
 
 // At most so far are the cores apart. Throws Fault if the points are none of theirs, or prove nothing.

@@ -1,10 +1,10 @@
 // Part of the oracle: what proves an answer about two bodies of many parts. harness/files reads and writes it.
 //
-// The parts of each body are in a tree (part_tree.h), so that one plane can part many of them from many others. The
-// cover is a walk over pairs of nodes, from both roots on: each step says what becomes of the pair at hand. Either one of
-// the nodes is halved, and the walk goes on with its first half and then with its second one; or a plane parts all parts
-// of one from all of the other; or both are one part, and the two have a common point; or the pair is left open. So no
-// pair can be missing, and none can be there twice.
+// The parts of each body are in a tree (part_tree.h), so that one plane can part many of them from many others.
+// The cover is a walk over pairs of nodes, from both roots on: each step says what becomes of the pair at hand.
+// Either one of the nodes is halved, and the walk goes on with its first half and then with its second one; or
+// a plane parts all parts of one from all of the other; or both are one part, and the two have a common point;
+// or the pair is left open. So no pair can be missing, and none can be there twice.
 //
 // All poses are taken literally: a part of a compound has the product of the two matrices, in rationals. A half-space
 // among the parts is in no box, and its plane that of the inverse transpose of that product.
@@ -25,8 +25,8 @@ struct PartsCertificate {
   // their distance. Contacts: that, and every pair of parts that has a common point.
   enum class Claim : std::uint8_t { intersect, distance, contacts };
   Claim claim = Claim::intersect;
-  // Separated: the closed bodies share no point. Overlapping: they share one, as those that only touch do. Unknown: some
-  // pairs of parts are open, and the others share no point.
+  // Separated: the closed bodies share no point. Overlapping: they share one, as those that only touch do.
+  // Unknown: some pairs of parts are open, and the others share no point.
   Answer answer = Answer::unknown;
   // Of a distance: at least and at most, metres.
   struct Bounds {
@@ -51,8 +51,9 @@ struct PartsCertificate {
   };
   std::vector<Step> cover;
 
-  // A common point of two parts, as in certificate.h: a convex combination of points of their difference that is within
-  // the radii, or a surface around 0; two half-spaces need neither. Of a distance: the points that are so near.
+  // A common point of two parts, as in certificate.h: a convex combination of points of their difference that
+  // is within the radii, or a surface around 0; two half-spaces need neither. Of a distance: the points that
+  // are so near.
   struct Met {
     IndexPair parts;
     std::vector<Generator> a, b;

@@ -1,5 +1,5 @@
-// Part of the oracle, used by the checks of certificates and by what makes them: the parts of a body in their places, in
-// rationals.
+// Part of the oracle, used by the checks of certificates and by what makes them: the parts of a body in their
+// places, in rationals.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Pieces, edges and winding numbers of meshes. A ray goes up from the point, and each triangle that it crosses counts.
+// Pieces, edges and winding numbers of meshes. A ray goes up from the point, and each triangle that it crosses
+// counts.
 #include "algorithms/oracle/certificates/parts/rational_mesh.h"
 
 #include <algorithm>

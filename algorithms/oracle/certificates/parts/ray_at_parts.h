@@ -24,8 +24,8 @@ struct RaySpan {
 // The corners of a part that is a triangle without a ball, or less.
 std::optional<RationalTriangle> triangle_of(const PlacedParts& parts, std::uint32_t part);
 
-// True if the part has the point, which for a hull of more than three vertices the surface has to show. Throws Fault if
-// that is not one, and if the matrix of a round core, a box or a half-space has no inverse.
+// True if the part has the point, which for a hull of more than three vertices the surface has to show. Throws
+// Fault if that is not one, and if the matrix of a round core, a box or a half-space has no inverse.
 bool has_point(const PlacedParts& parts, std::uint32_t part, const RationalVector& point,
                const std::vector<Generator>& generators, const Certificate::Surface& surface);
 
