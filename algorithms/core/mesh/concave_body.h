@@ -19,6 +19,8 @@ struct ConvexPart {
   // A bound in metres on the distance by which any of the part's points is off because compounds
   // within compounds were placed in doubles; 0 if nothing was rounded.
   double rounding = 0;
+  // If that is not 0: the poses whose product `pose` is, the outermost first, where they are known.
+  std::shared_ptr<const std::vector<Pose>> poses = nullptr;
 };
 
 // A mesh within a compound. Its triangles are parts of the compound, each a flat hull, all with one

@@ -22,7 +22,7 @@ class BodyRayProver {
   // The answer of the ray cast of scenes `exact` with its proof. Of triangles and half-spaces the time is
   // exact, but where another part is hit so shortly after that it hides that; of others it is a bracket, of
   // 2^-50 of the time or as wide as it has to be. Where it finds no proof the answer is unknown. Nothing if the
-  // ray is none, and if places of parts were rounded before they were given.
+  // ray is none, and if places of parts were rounded before they were given and the poses are not known.
   std::optional<BodyRayCertificate> prove(const Vec3d& origin, const Vec3d& direction, double t_max,
                                           bool is_first);
 

@@ -30,7 +30,7 @@ std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file);
 ConcaveCase read_concave_case(const JsonNode& line);
 
 // One line, without the line break, that read_concave_cases turns into the same bits. A compound's parts
-// are written one by one.
+// are written one by one, each within compounds of its own where the product of its poses was rounded.
 std::string to_json(const ConcaveCase& c);
 
 // The case of two convex bodies.

@@ -78,6 +78,22 @@ OrderedJson placed_mesh_to_json(const TriangleMesh& mesh, const Pose& pose) {
   return out;
 }
 
+// A part, or the mesh whose first triangle it is, within compounds of its own if their product was rounded.
+OrderedJson part_to_json(const ConvexPart& part, const TriangleMesh* mesh) {
+  const std::vector<Pose> poses = part.poses ? *part.poses : std::vector<Pose>{part.pose};
+  OrderedJson out = mesh != nullptr ? placed_mesh_to_json(*mesh, poses.back())
+                                    : body_to_json(part.shape, poses.back());
+  for (std::size_t i = poses.size() - 1; i > 0; --i) {
+    OrderedJson around = body_to_json(Shape{}, poses[i - 1]);  // for the pose
+    around["shape"] = OrderedJson();
+    around["shape"]["type"] = "compound";
+    around["shape"]["parts"] = OrderedJson::array();
+    around["shape"]["parts"].push_back(std::move(out));
+    out = std::move(around);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> read_mesh(const JsonNode& node) {
@@ -133,7 +149,7 @@ ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
 
 OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose) {
   const bool is_shape = !body.mesh && body.parts.size() == 1 && body.surfaces.empty() &&
-                        body.parts[0].pose.rotation.isIdentity(0) &&
+                        !body.parts[0].poses && body.parts[0].pose.rotation.isIdentity(0) &&
                         body.parts[0].pose.translation.isZero(0);
   if (is_shape) return body_to_json(body.parts[0].shape, pose);
   if (body.mesh) return placed_mesh_to_json(*body.mesh, pose);
@@ -146,10 +162,10 @@ OrderedJson concave_body_to_json(const ConcaveBody& body, const Pose& pose) {
   for (std::size_t i = 0; i < body.parts.size();) {
     const ConvexPart& part = body.parts[i];
     if (surface != body.surfaces.end() && surface->first == i) {
-      shape["parts"].push_back(placed_mesh_to_json(*surface->mesh, part.pose));
+      shape["parts"].push_back(part_to_json(part, surface->mesh.get()));
       i += surface++->mesh->triangles.size();
     } else {
-      shape["parts"].push_back(body_to_json(part.shape, part.pose));
+      shape["parts"].push_back(part_to_json(part, nullptr));
       ++i;
     }
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "algorithms/core/bounds.h"
@@ -45,12 +46,19 @@ void add_part(Mesh& mesh, const ConvexPart& part) {
 
 void place_within(std::span<const Pose> around, ConvexPart& part) {
   const double reach = reach_of({{tight_box(part.shape, Pose{})}});
+  std::vector<Pose> poses(around.begin(), around.end());
+  if (part.poses) {
+    poses.insert(poses.end(), part.poses->begin(), part.poses->end());
+  } else {
+    poses.push_back(part.pose);
+  }
   for (auto outer = around.rbegin(); outer != around.rend(); ++outer) {
     const double stretch = outer->rotation.cwiseAbs().rowwise().sum().maxCoeff();
     const ComposedPose placed = composed(*outer, part.pose, reach);
     part.pose = placed.pose;
     part.rounding = 2 * stretch * part.rounding + placed.error;
   }
+  if (part.rounding != 0) part.poses = std::make_shared<const std::vector<Pose>>(std::move(poses));
 }
 
 void add_surface(std::shared_ptr<const TriangleMesh> mesh, const Pose& pose,

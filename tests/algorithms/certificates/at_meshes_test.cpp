@@ -12,6 +12,7 @@
 #include "harness/families/aimed_rays.h"
 #include "harness/families/meshes.h"
 #include "harness/families/tried_points.h"
+#include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 
 namespace touchstone {
@@ -33,7 +34,7 @@ TEST(RayCertificates, ProveEveryAnswerOfAllFamilies) {
     MeshProver prover(mesh);
     reference::Random random(5);
     for (const Ray& ray : families::aimed_rays(mesh, 1, 7)) {
-      if (random.below(6) != 0) continue;
+      if (random.below(6 * one_in) != 0) continue;
       for (const bool is_first : {true, false}) {
         const auto proof = prover.prove_ray(ray.origin, ray.direction, ray.t_max, is_first);
         ASSERT_TRUE(proof) << name;
@@ -42,8 +43,8 @@ TEST(RayCertificates, ProveEveryAnswerOfAllFamilies) {
       }
     }
   }
-  EXPECT_GT(hits, 200);
-  EXPECT_GT(misses, 200);
+  EXPECT_GT(hits, 200 / one_in);
+  EXPECT_GT(misses, 200 / one_in);
 }
 
 TEST(RayCertificates, EveryChangedClaimIsRefused) {
@@ -157,7 +158,7 @@ TEST(PointCertificates, ProveEveryAnswerOfAllFamilies) {
   for (const auto& [name, mesh] : families::closed_meshes()) {
     const CheckedMesh checked(mesh);
     MeshProver prover(mesh);
-    for (const Vec3d& point : families::tried_points(mesh, 0.03, 3)) {
+    for (const Vec3d& point : families::tried_points(mesh, 0.03 / one_in, 3)) {
       for (const auto& proof : {prover.prove_nearest(point), prover.prove_side(point)}) {
         ASSERT_TRUE(proof) << name;
         ++claims[static_cast<std::size_t>(proof->claim)];
@@ -165,14 +166,14 @@ TEST(PointCertificates, ProveEveryAnswerOfAllFamilies) {
       }
     }
   }
-  for (const int count : claims) EXPECT_GT(count, 5);
+  for (const int count : claims) EXPECT_GT(count, 5 / one_in);
 }
 
 TEST(PointCertificates, ProveTheNearestOfOpenMeshesToo) {
   for (const auto& [name, mesh] : families::ray_meshes()) {
     const CheckedMesh checked(mesh);
     MeshProver prover(mesh);
-    for (const Vec3d& point : families::tried_points(mesh, 0.02, 4)) {
+    for (const Vec3d& point : families::tried_points(mesh, 0.02 / one_in, 4)) {
       EXPECT_EQ(checked.fault(*prover.prove_nearest(point)), "") << name;
     }
   }

@@ -8,6 +8,7 @@
 #include "algorithms/oracle/certificates/parts/parts_certificate_check.h"
 #include "algorithms/oracle/concave/exact_parts_proofs.h"
 #include "tests/algorithms/concave/meshes.h"
+#include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 
 namespace touchstone::reference {

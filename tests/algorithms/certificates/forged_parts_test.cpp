@@ -169,19 +169,20 @@ std::vector<ProvenPair> honest_pairs() {
 }
 
 TEST(ForgedPartsCertificates, EveryChangeIsRefused) {
-  int changes = 0;
+  int changes = 0, next = 0;
   std::array<int, 4> answers{};
   for (const ProvenPair& pair : honest_pairs()) {
     for (const PartsClaim claim : reference::all_claims) {
+      if (next++ % std::min(one_in, 4) != 0) continue;
       Forger forger(pair, claim);
       ++answers[static_cast<std::size_t>(forger.proof().answer)];
       forger.change_all();
       changes += forger.changes();
     }
   }
-  EXPECT_GT(changes, 1000);
-  EXPECT_GT(answers[static_cast<std::size_t>(Answer::separated)], 6);
-  EXPECT_GT(answers[static_cast<std::size_t>(Answer::overlapping)], 12);
+  EXPECT_GT(changes, 1000 / one_in);
+  EXPECT_GT(answers[static_cast<std::size_t>(Answer::separated)], 6 / one_in);
+  EXPECT_GT(answers[static_cast<std::size_t>(Answer::overlapping)], 12 / one_in);
 }
 
 // A certificate of one place proves nothing of another.

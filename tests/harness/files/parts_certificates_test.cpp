@@ -73,6 +73,27 @@ TEST_F(PartsCertificateFiles, EveryFormIsReadAsItWasWritten) {
   }
 }
 
+// Compounds within compounds keep their poses, where their product was rounded.
+TEST_F(PartsCertificateFiles, NestedCompounds) {
+  const std::string third =
+      R"("translation":[0.1,0.2,0.3],"rotation":[0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9])";
+  const auto compound = [&](const std::string& parts) {
+    return R"({"shape":{"type":"compound","parts":[)" + parts + "]}," + third + "}";
+  };
+  const std::string part = R"({"shape":{"type":"sphere","radius":1.0},)" + third + "}";
+  const std::string mesh =
+      R"({"shape":{"type":"mesh","vertices":[[0.0,0.0,0.0],[1.0,0.0,0.0],[0.1,1.0,0.0]],)"
+      R"("triangles":[[0,1,2],[0,2,1]],"solid":true},)" +
+      third + "}";
+  const std::string nested = compound(compound(part) + "," + compound(mesh) + "," + part);
+  std::string text = every_form;
+  const auto place = text.find(R"({"shape":{"type":"sphere")");
+  text.replace(place, text.find(R"(,"claim")") - place, nested);
+  const std::string once = rewritten(text);
+  EXPECT_THAT(once, HasSubstr(R"("b":)" + nested));
+  EXPECT_EQ(rewritten(once), once);
+}
+
 TEST_F(PartsCertificateFiles, WhatIsMalformedIsToldWithItsPlace) {
   for (const std::string key : {"id", "a", "b", "claim", "answer", "bounds", "undecided", "order_a",
                                 "order_b", "cover", "met", "inside"}) {

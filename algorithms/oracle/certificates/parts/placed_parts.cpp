@@ -21,6 +21,14 @@ Solid solid_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   return Solid(shape);
 }
 
+// The product of all poses that place a part in its body.
+RationalPose pose_within(const ConvexPart& part) {
+  if (part.rounding == 0 || !part.poses) return rational_pose(part.pose);
+  RationalPose product = rational_pose(Pose{});
+  for (const Pose& pose : *part.poses) product = composed(product, rational_pose(pose));
+  return product;
+}
+
 std::optional<RationalBox> box_of(const RationalCore& core) {
   if (core.is_halfspace()) return {};
   std::optional<RationalBox> box;
@@ -48,8 +56,7 @@ PlacedParts::PlacedParts(const ConcaveBody& body, const Pose& pose)
   solids_.reserve(body.part_count());
   for (std::uint32_t i = 0; i < body.part_count(); ++i) {
     solids_.push_back(body.mesh ? solid_of(*body.mesh, i) : Solid(body.parts[i].shape));
-    const RationalPose within =
-        body.mesh ? rational_pose(Pose{}) : rational_pose(body.parts[i].pose);
+    const RationalPose within = body.mesh ? rational_pose(Pose{}) : pose_within(body.parts[i]);
     boxes_.push_back(box_of(RationalCore(solids_[i], within, parts_root_bits)));
     require(solids_[i].radius >= 0, "a radius is negative");
     greatest_radius_ = std::max<mpq_class>(greatest_radius_, radius(i));
@@ -57,7 +64,7 @@ PlacedParts::PlacedParts(const ConcaveBody& body, const Pose& pose)
 }
 
 RationalPose PlacedParts::pose_of(std::uint32_t part) const {
-  return body_.mesh ? pose_ : composed(pose_, rational_pose(body_.parts[part].pose));
+  return body_.mesh ? pose_ : composed(pose_, pose_within(body_.parts[part]));
 }
 
 RationalCore PlacedParts::core(std::uint32_t part) const {
@@ -65,8 +72,8 @@ RationalCore PlacedParts::core(std::uint32_t part) const {
 }
 
 bool PlacedParts::is_rounded() const {
-  return std::ranges::any_of(body_.parts,
-                             [](const ConvexPart& part) { return part.rounding != 0; });
+  return std::ranges::any_of(
+      body_.parts, [](const ConvexPart& part) { return part.rounding != 0 && !part.poses; });
 }
 
 mpq_class PlacedParts::support(const RationalVector& n, const RationalBox& box) const {

@@ -23,7 +23,7 @@ class PlacedParts {
   RationalCore core(std::uint32_t part) const;
   mpq_class radius(std::uint32_t part) const { return rational(solids_[part].radius); }
   const mpq_class& greatest_radius() const { return greatest_radius_; }
-  // True if the places of parts were rounded before they were given.
+  // True if the places of parts were rounded before they were given, and the poses are not known.
   bool is_rounded() const;
 
   // Boxes around the parts' cores, in body coordinates.
