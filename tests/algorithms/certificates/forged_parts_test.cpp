@@ -149,8 +149,8 @@ std::vector<ProvenPair> honest_pairs() {
   // Meshes that are apart, that cross, that touch at a corner, and one in the other.
   const ConcaveBody box = body_of(families::box_mesh(1, 1, 1, true));
   const ConcaveBody small = body_of(families::box_mesh(0.25, 0.25, 0.25));
-  pairs.push_back({box, small, {random.rotation(), {}}, moved_by({2, 1, 0.5})});
-  pairs.push_back({box, small, {random.rotation(), {}}, moved_by({1, 0.5, 0.25})});
+  pairs.push_back({box, small, {random.rotation(), Vec3d::Zero()}, moved_by({2, 1, 0.5})});
+  pairs.push_back({box, small, {random.rotation(), Vec3d::Zero()}, moved_by({1, 0.5, 0.25})});
   pairs.push_back({box, small, {}, moved_by({1.25, 1.25, -1.25})});
   pairs.push_back({box, small, {}, moved_by({0.25, 0.25, -0.25})});
   pairs.push_back({small, box, {}, {}});
@@ -158,7 +158,7 @@ std::vector<ProvenPair> honest_pairs() {
   for (int i = 0; i < 6; ++i) {
     pairs.push_back({reference::compound(random, 3, i % 2 == 0, i % 3 == 0),
                      reference::compound(random, 2, false, false),
-                     {random.rotation(), {}},
+                     {random.rotation(), Vec3d::Zero()},
                      {random.rotation(), random.vector(i < 3 ? 5 : 2)}});
   }
   pairs.push_back({body_of(reference::make_sphere(1)),
@@ -190,7 +190,7 @@ TEST(ForgedPartsCertificates, ProveNothingOfOtherPlaces) {
   reference::Random random(5);
   const ConcaveBody box = body_of(families::box_mesh(1, 1, 1, true));
   const ConcaveBody ball = body_of(reference::make_sphere(0.5));
-  const ProvenPair apart{box, ball, {random.rotation(), {}}, moved_by({3, 0, 0})};
+  const ProvenPair apart{box, ball, {random.rotation(), Vec3d::Zero()}, moved_by({3, 0, 0})};
   for (const PartsClaim claim : reference::all_claims) {
     const PartsCertificate proof = apart.prove(claim);
     for (const double x : {1.0, 0.25, 0.0, -1.5}) {
