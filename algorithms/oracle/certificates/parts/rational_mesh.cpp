@@ -10,14 +10,20 @@
 namespace touchstone::oracle {
 namespace {
 
-// On which side of the line from u to v the moved point is, as seen from above; 0 if u is over v.
+// -1, 0 or 1; GMP's cmp has other numbers too.
+int order(const mpq_class& x, const mpq_class& y) {
+  const int found = cmp(x, y);
+  return (found > 0 ? 1 : 0) - (found < 0 ? 1 : 0);
+}
+
+// On which side of the line from u to v the moved point is, as seen from above, 1 or -1; 0 if u is over v.
 int side(const RationalVector& u, const RationalVector& v, const RationalVector& point) {
   const mpq_class ux = u[0] - point[0], uy = u[1] - point[1];
   const mpq_class vx = v[0] - point[0], vy = v[1] - point[1];
   if (const int area = sgn(mpq_class(ux * vy - uy * vx)); area != 0) return area;
   // The area's derivatives when the point moves along x and along y.
-  if (const int along_x = cmp(uy, vy); along_x != 0) return along_x;
-  return cmp(vx, ux);
+  if (const int along_x = order(uy, vy); along_x != 0) return along_x;
+  return order(vx, ux);
 }
 
 }  // namespace
@@ -86,8 +92,8 @@ int RationalMesh::winding(const RationalVector& point) const {
     const RationalVector &p = vertices_[a], &q = vertices_[b], &r = vertices_[c];
     // The ray passes triangles that are left or right of it, or below the point.
     const auto all = [&](std::size_t axis, int sign) {
-      return cmp(p[axis], point[axis]) == sign && cmp(q[axis], point[axis]) == sign &&
-             cmp(r[axis], point[axis]) == sign;
+      return order(p[axis], point[axis]) == sign && order(q[axis], point[axis]) == sign &&
+             order(r[axis], point[axis]) == sign;
     };
     if (all(0, -1) || all(0, 1) || all(1, -1) || all(1, 1) || all(2, -1)) continue;
     const int turn = side(p, q, point);
