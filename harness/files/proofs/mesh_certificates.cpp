@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -25,11 +26,24 @@ bool read_boolean(const JsonNode& node) {
 
 std::int32_t read_winding(const JsonNode& node) {
   const Json& value = node.value();
-  constexpr auto most = std::numeric_limits<std::int32_t>::max();
-  if (!value.is_number_integer() || value < -std::int64_t{most} || value > std::int64_t{most}) {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  // Numbers that are not negative are unsigned, and may be too great for what is signed.
+  const bool is_in_range = value.is_number_unsigned()
+                               ? value.get<std::uint64_t>() <= std::uint64_t{most}
+                               : value.is_number_integer() && value.get<std::int64_t>() >= -most;
+  if (!is_in_range) {
     node.fail(fmt::format("found {}; expected how often the surface winds", node.found()));
   }
   return value.get<std::int32_t>();
+}
+
+// The greatest number stands for none.
+std::uint32_t read_triangle_number(const JsonNode& node) {
+  const std::uint32_t number = read_index(node);
+  if (number == oracle::no_triangle) {
+    node.fail(fmt::format("found {}; expected the number of a triangle", number));
+  }
+  return number;
 }
 
 using Claim = PointCertificate::Claim;
@@ -50,6 +64,15 @@ Claim read_claim(const JsonNode& node) {
 
 std::string_view name_of(Claim claim) { return claims[static_cast<std::size_t>(claim)].first; }
 
+std::shared_ptr<const TriangleMesh> read_mesh_alone(const JsonNode& shape) {
+  shape.as_object("a mesh");
+  const JsonNode type = shape.at("type", "\"mesh\"");
+  if (type.text("mesh") != "mesh") {
+    type.fail(fmt::format("found {}; expected \"mesh\"", type.found()));
+  }
+  return read_mesh(shape);
+}
+
 StoredRayCertificate read_ray(const JsonNode& line) {
   const RayFields fields = read_ray_fields(line);
   StoredRayCertificate stored{fields.ray, {}};
@@ -60,7 +83,7 @@ StoredRayCertificate read_ray(const JsonNode& line) {
   certificate.t_max = fields.t_max;
   certificate.hit = read_boolean(line.at("hit", "true or false"));
   if (certificate.hit) {
-    certificate.triangle = read_index(line.at("triangle", "the number of a triangle"));
+    certificate.triangle = read_triangle_number(line.at("triangle", "the number of a triangle"));
     certificate.t = read_fraction(line.at("t", "a fraction"));
     return stored;
   }
@@ -82,7 +105,7 @@ StoredPointCertificate read_at(const JsonNode& line) {
     return stored;
   }
   if (!line.has("triangle") && !line.has("square")) return stored;
-  certificate.triangle = read_index(line.at("triangle", "the number of a triangle"));
+  certificate.triangle = read_triangle_number(line.at("triangle", "the number of a triangle"));
   certificate.square = read_fraction(line.at("square", "a fraction"));
   return stored;
 }
@@ -127,7 +150,7 @@ void read_ray_certificates(const std::filesystem::path& file, const RayTargets& 
   for_each_json_line(file, "certificate", [&](const JsonNode& line) {
     line.as_object("a certificate, or an object with \"mesh\" or \"body\"");
     if (line.has("mesh")) {
-      targets.mesh(*read_mesh(line.at("mesh", "a mesh")));
+      targets.mesh(*read_mesh_alone(line.at("mesh", "a mesh")));
       target = Target::mesh;
     } else if (line.has("body")) {
       Pose pose;
@@ -139,7 +162,8 @@ void read_ray_certificates(const std::filesystem::path& file, const RayTargets& 
     } else if (target == Target::body) {
       targets.at_body(read_body_ray(line), line.line());
     } else {
-      line.fail("a certificate before any mesh; expected an object with \"mesh\" or \"body\"");
+      line.fail(
+          "a certificate before any mesh or body; expected an object with \"mesh\" or \"body\"");
     }
   });
 }
@@ -151,7 +175,7 @@ void read_point_certificates(
   for_each_json_line(file, "certificate", [&](const JsonNode& line) {
     line.as_object("a certificate, or an object with \"mesh\"");
     if (line.has("mesh")) {
-      mesh(*read_mesh(line.at("mesh", "a mesh")));
+      mesh(*read_mesh_alone(line.at("mesh", "a mesh")));
       has_mesh = true;
       return;
     }

@@ -112,8 +112,11 @@ TEST_F(MeshCertificates, WhatIsMalformedIsToldWithItsPlace) {
   EXPECT_THAT(fault(ray_text, true), HasSubstr("in.jsonl:1: a certificate before any mesh"));
   EXPECT_THAT(fault(point_text, false), HasSubstr("in.jsonl:1: a certificate before any mesh"));
   EXPECT_THAT(fault("[1]", true), HasSubstr("in.jsonl:1: found an array of 1"));
-  EXPECT_THAT(fault(R"({"mesh":{"vertices":[],"triangles":[[0,1,2]]}})", true),
+  EXPECT_THAT(fault(R"({"mesh":{"type":"mesh","vertices":[],"triangles":[[0,1,2]]}})", true),
               HasSubstr("mesh.triangles[0]"));
+  EXPECT_THAT(fault(R"({"mesh":{"type":"box","vertices":[],"triangles":[]}})", true),
+              HasSubstr("in.jsonl:1: mesh.type: found \"box\"; expected \"mesh\""));
+  EXPECT_THAT(fault(R"({"mesh":7})", false), HasSubstr("in.jsonl:1: mesh: found 7"));
   for (const std::string key : {"task", "origin", "direction", "t_max", "hit", "triangle", "t"}) {
     expect_fault(ray_text, "\"" + key + "\"", "\"x\"", true, "no \"" + key + "\"");
   }
@@ -133,6 +136,16 @@ TEST_F(MeshCertificates, WhatIsMalformedIsToldWithItsPlace) {
   expect_fault(point_text, "nearest", "inside", false, "no \"winding\"");
   expect_fault(point_text, "nearest\"", "inside\",\"winding\":99999999999", false,
                "winding: found");
+  // As a signed number of 64 bits that is -1.
+  expect_fault(point_text, "nearest\"", "inside\",\"winding\":18446744073709551615", false,
+               "winding: found 18446744073709551615");
+  expect_fault(point_text, "nearest\"", "inside\",\"winding\":-2147483648", false,
+               "winding: found -2147483648");
+  // That number stands for no triangle.
+  expect_fault(point_text, "\"triangle\":0", "\"triangle\":4294967295", false,
+               "triangle: found 4294967295");
+  expect_fault(ray_text, "\"triangle\":0", "\"triangle\":4294967295", true,
+               "triangle: found 4294967295");
 }
 
 }  // namespace
