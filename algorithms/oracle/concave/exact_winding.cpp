@@ -1,11 +1,13 @@
 // The winding number by the signed crossings of a ray along the world's z axis.
 //
 // The ray begins at the point and is moved by (d, d^2, 0) for an infinitely small d > 0, so that it
-// meets no edge: where the sign of a determinant is 0, those of its derivatives decide.
+// meets no edge: where the sign of a determinant is 0, those of its derivatives decide. Triangles that it passes
+// by more than doubles can be wrong are left out first.
 #include "algorithms/oracle/concave/exact_winding.h"
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "algorithms/oracle/numbers/dyadic.h"
@@ -43,6 +45,31 @@ struct PlacedSum {
   }
 };
 
+// A placed point in doubles. Its difference from another is off by no more than the sum of their errors.
+struct RoundedPlace {
+  Vec3d at, error;
+
+  RoundedPlace(const Pose& pose, const Vec3d& point) : at(pose(point)) {
+    // Three products, three sums and the difference are each off by half an epsilon of the magnitudes.
+    constexpr double share = 4 * std::numeric_limits<double>::epsilon();
+    error = share * (pose.rotation.cwiseAbs() * point.cwiseAbs() + pose.translation.cwiseAbs());
+    error.array() += std::numeric_limits<double>::min();
+  }
+};
+
+// True if the upward ray from `from`, however little it is moved, certainly passes the triangle.
+bool passes(const RoundedPlace& from, const std::array<RoundedPlace, 3>& corners) {
+  Vec3d most = Vec3d::Constant(-std::numeric_limits<double>::infinity()), least = -most;
+  for (const RoundedPlace& corner : corners) {
+    const Vec3d way = corner.at - from.at, error = corner.error + from.error;
+    // What is no number is in all directions.
+    if (!(way + error).allFinite()) return false;
+    most = most.cwiseMax(way + error);
+    least = least.cwiseMin(way - error);
+  }
+  return most.minCoeff() < 0 || least.head<2>().maxCoeff() > 0;
+}
+
 int sign(const Integer& x) { return x.sign(); }
 
 // On which side of the line from u to v the origin is, as seen along z, once it is moved; 0 if the
@@ -60,8 +87,14 @@ int side(const IntegerVector& u, const IntegerVector& v) {
 int exact_winding(const TriangleMesh& mesh, const Pose& pose, const Vec3d& point,
                   const Pose& pose_of_point) {
   const PlacedSum origin(pose_of_point, point);
+  const RoundedPlace about(pose_of_point, point);
+  const auto rounded = [&](std::uint32_t corner) {
+    return RoundedPlace(pose, mesh.vertices[corner]);
+  };
   int turns = 0;
   for (const auto& corners : mesh.triangles) {
+    const auto& [a, b, c] = corners;
+    if (passes(about, {rounded(a), rounded(b), rounded(c)})) continue;
     std::vector<PlacedSum> sums;
     int e = origin.least_exponent();
     for (const std::uint32_t corner : corners) {
