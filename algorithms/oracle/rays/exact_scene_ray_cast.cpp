@@ -11,7 +11,8 @@
 // Fails:   triangles and half-spaces are exact; spheres, capsules, boxes and hulls are but for the time,
 //          which is within 2^-80 of the displacement; the others have an enclosure. Where brackets do not tell
 //          which hit is first or whether one is within t_max, or the oracle of casts does not know, the status is
-//          `not_converged`; so it is for each ray where the matrix of a half-space has no inverse. Normals are not
+//          `not_converged`; so it is for each ray where the matrix of a half-space has no inverse, and where no
+//          double times the direction passes a convex part. Normals are not
 //          given. Of parts that are hit at one time, the first is reported. Poses of parts within bodies are
 //          multiplied in doubles.
 // Cost:    O(log n) a ray where parts are small, some microseconds for each triangle and a tenth of a
@@ -26,6 +27,7 @@
 #include "algorithms/oracle/rays/box_tree.h"
 #include "algorithms/oracle/rays/ray_half_space.h"
 #include "algorithms/oracle/rays/ray_triangle.h"
+#include "algorithms/oracle/solid.h"
 #include "algorithms/scene_ray_cast.h"
 
 namespace touchstone::entries {
@@ -60,6 +62,14 @@ Box box_of(const Shape& shape, const Pose& pose) {
   return wide;
 }
 
+// The greatest coordinates of the shape's core, and its radius. Not of a half-space.
+Eigen::Vector4d size_of(const Shape& shape) {
+  const oracle::Solid solid(shape);
+  Vec3d greatest = solid.extents;
+  for (const Vec3d& v : solid.vertices) greatest = greatest.cwiseMax(v.cwiseAbs());
+  return {greatest.x(), greatest.y(), greatest.z(), solid.radius};
+}
+
 class ExactSceneCast final : public SceneRayCast {
  public:
   ExactSceneCast() : cast_(entries::oracle_exact_cast().front().make({})) {}
@@ -84,6 +94,8 @@ class ExactSceneCast final : public SceneRayCast {
     }
     Shape point;  // a ball without a radius
     shapes_.push_back(point);
+    sizes_.clear();
+    for (const Shape& shape : shapes_) sizes_.push_back(size_of(shape));
     place(poses);
     cast_->bind(shapes_);
   }
@@ -128,17 +140,19 @@ class ExactSceneCast final : public SceneRayCast {
     return {part.mesh->vertices[a], part.mesh->vertices[b], part.mesh->vertices[c]};
   }
 
-  // A power of two times the direction that passes every point of the shape's box.
-  static double length_past(const Ray& ray, const Shape& shape, const Pose& pose) {
-    double reach = 1e-300;
-    const Aabb box = tight_box(shape, pose);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double at = ray.origin[static_cast<Eigen::Index>(k)];
-      reach = std::max({reach, std::abs(static_cast<double>(box.min[k]) - at),
-                        std::abs(static_cast<double>(box.max[k]) - at)});
-    }
-    const double ratio = 4 * reach / ray.direction.cwiseAbs().maxCoeff();
-    return std::ldexp(1.0, std::clamp(std::ilogb(ratio) + 1, -900, 900));
+  // A power of two that makes the direction, exactly, a displacement past every point of the shape. None if no
+  // double is one.
+  std::optional<double> length_past(const Ray& ray, std::uint32_t shape) const {
+    const Pose& pose = poses_[shape];
+    const Vec3d reach = (pose.translation - ray.origin).cwiseAbs() +
+                        pose.rotation.cwiseAbs() * sizes_[shape].head<3>();
+    const double far = std::max(1e-300, reach.maxCoeff() + sizes_[shape][3]);
+    const double ratio = 4 * far / ray.direction.cwiseAbs().maxCoeff();
+    if (!std::isfinite(ratio)) return {};
+    const double length = std::ldexp(1.0, std::max(std::ilogb(ratio) + 1, -900));
+    const Vec3d way = length * ray.direction;
+    if (!way.allFinite() || way / length != ray.direction) return {};
+    return length;
   }
 
   SceneRayHit closest(const Ray& ray) {
@@ -230,10 +244,12 @@ class ExactSceneCast final : public SceneRayCast {
 
   void ask_convex(const Ray& ray, std::uint32_t number) {
     const Part& part = parts_[number];
-    const double length = length_past(ray, shapes_[part.shape], poses_[part.shape]);
+    PartHit hit{number, 0, HUGE_VAL, 0, false};
+    const std::optional<double> past = length_past(ray, part.shape);
+    if (!past) return hits_.push_back(hit);
+    const double length = *past;
     const CastOutcome outcome = cast_at(ray, length, part.shape);
     if (outcome.answer == CastAnswer::miss) return;
-    PartHit hit{number, 0, HUGE_VAL, 0, false};
     if (outcome.lower > 0) hit.lower = outcome.lower * length;
     if (hit.lower > ray.t_max) return;
     if (outcome.answer == CastAnswer::hit && outcome.upper * length <= ray.t_max) {
@@ -266,6 +282,7 @@ class ExactSceneCast final : public SceneRayCast {
   std::vector<Part> parts_;
   std::vector<Pose> poses_of_bodies_;
   std::vector<Shape> shapes_;             // of the convex parts, and the point's
+  std::vector<Eigen::Vector4d> sizes_;    // of the shapes
   std::vector<Pose> within_;              // of the convex parts in their bodies
   std::vector<Pose> poses_;               // of the shapes in the world
   oracle::BoxTree tree_;                  // over the boxes of the parts

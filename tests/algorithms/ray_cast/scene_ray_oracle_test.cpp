@@ -37,5 +37,38 @@ TEST(SceneRayOracle, DoesNotGuessWhichBodyIsFirst) {
   EXPECT_GE(open, 1);
 }
 
+// Bodies beyond floats, and directions near the least and the greatest doubles: the answer is that at about 1, or none.
+TEST(SceneRayOracle, MissesNothingAtAnyScale) {
+  const auto exact = find_scene_ray_cast("exact")->make();
+  int hits = 0, open = 0;
+  for (const int power : {-900, -300, 0, 125, 130, 300, 900, 1015}) {
+    const double size = std::ldexp(1.0, power);
+    const std::vector<SceneBody> bodies = {
+        resting(reference::make_box(1, 1, 1)), resting(reference::make_sphere(size)),
+        resting(reference::make_capsule(size, size)),
+        resting(hull_of({{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}}))};
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      std::vector<SceneBody> one = {bodies[i]};
+      if (i == 0) one[0].pose.rotation *= size;
+      exact->bind(one);
+      for (const int speed : {-1060, -900, -300, 0, 300, 900}) {
+        const double step = std::ldexp(1.0, speed);
+        const Ray ray{.origin = {size / 8, size / 4, 5 * size}, .direction = {0, 0, -step}};
+        SceneRayHit hit;
+        exact->cast(RayTask::closest, {&ray, 1}, {&hit, 1});
+        if (hit.status != Status::ok) {
+          ++open;
+          EXPECT_FALSE(hit.hit);
+          continue;
+        }
+        ++hits;
+        EXPECT_TRUE(hit.hit) << i << ' ' << power << ' ' << speed;
+      }
+    }
+  }
+  EXPECT_GT(hits, 100);
+  EXPECT_GT(open, 10);
+}
+
 }  // namespace
 }  // namespace touchstone
