@@ -197,8 +197,7 @@ bool BodyRayProver::walk(const RaySpan& span, const PartNode& node, Steps& steps
   if (const auto& box = tree_.box(node)) {
     const RoundedGroup group(*box, pose_);
     const Vec3d from = rounded_vector(span.origin);
-    const double end = span.end ? span.end->get_d() : far_end(span);
-    const RoundedGroup segment(from, from + end * rounded_vector(span.direction), group);
+    const RoundedGroup segment(from, from + way_of(span), group);
     if (const auto n = plane_between(segment, group, parts_.greatest_radius().get_d())) {
       const auto parted = parting(*n, span, [&](const RationalVector& along) {
         return span.is_parted(along, parts_.support(mpq_class(-1) * along, *box),
@@ -230,7 +229,7 @@ bool BodyRayProver::part_is_free(const RaySpan& span, std::uint32_t part, Steps&
     return !is_zero(core.normal()) && is_parted(mpq_class(-1) * core.normal());
   }
   const Vec3d from = rounded_vector(span.origin);
-  const Vec3d way = (span.end ? span.end->get_d() : far_end(span)) * rounded_vector(span.direction);
+  const Vec3d way = way_of(span);
   Shape shape;
   shape.kind = ShapeKind::hull;
   Hull hull;
@@ -246,17 +245,18 @@ bool BodyRayProver::part_is_free(const RaySpan& span, std::uint32_t part, Steps&
   return true;
 }
 
-// A time at which a ray without end is past all that is bounded.
-double BodyRayProver::far_end(const RaySpan& span) const {
-  const Vec3d from = rounded_vector(span.origin), way = rounded_vector(span.direction);
-  double reach = from.norm() + pose_.translation.norm() + parts_.greatest_radius().get_d();
+// The way from the origin to the end of the span; without one, to where the ray is past all that is bounded.
+Vec3d BodyRayProver::way_of(const RaySpan& span) const {
+  if (span.end) return rounded_vector(*span.end * span.direction);
+  double reach = rounded_vector(span.origin).stableNorm() + pose_.translation.stableNorm() +
+                 parts_.greatest_radius().get_d();
   for (const auto& box : parts_.boxes()) {
     if (!box) continue;
     const Vec3d low = rounded_vector(box->low), high = rounded_vector(box->high);
-    reach = std::max(
-        reach, reach / 2 + pose_.rotation.norm() * low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm());
+    const double size = low.cwiseAbs().cwiseMax(high.cwiseAbs()).stableNorm();
+    reach = std::max(reach, reach / 2 + pose_.rotation.stableNorm() * size);
   }
-  return 4 * reach / way.norm();
+  return 4 * reach * rounded_vector(span.direction).stableNormalized();
 }
 
 }  // namespace touchstone::oracle

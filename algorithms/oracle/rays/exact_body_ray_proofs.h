@@ -38,7 +38,7 @@ class BodyRayProver {
   bool write_cover(const RaySpan& span, BodyRayCertificate& certificate);
   bool walk(const RaySpan& span, const PartNode& node, Steps& steps);
   bool part_is_free(const RaySpan& span, std::uint32_t part, Steps& steps);
-  double far_end(const RaySpan& span) const;
+  Vec3d way_of(const RaySpan& span) const;
 
   const ConcaveBody& body_;
   Pose pose_;

@@ -267,5 +267,21 @@ TEST(BodyRayCertificates, EndsEmptyBodiesAndImproperRays) {
   EXPECT_NE(CheckedBody({rounded, {}}).fault(*proof), "");
 }
 
+TEST(BodyRayCertificates, OfMissesWithoutEndAreProvenWhateverTheLengthOfTheDirection) {
+  for (const Shape& shape : reference::shapes_of_all_kinds()) {
+    if (shape.kind == ShapeKind::halfspace) continue;
+    const ConcaveBody body = body_of(shape);
+    BodyRayProver prover(body, Pose{});
+    const CheckedBody checked({body, Pose{}});
+    for (const int power : {-1000, -600, -100, 0, 100, 600, 1000}) {
+      const Vec3d way = std::ldexp(1.0, power) * Vec3d(1, 0.25, -0.5);
+      const auto proof = prover.prove({-4, 3, 1}, way, no_end, true);
+      ASSERT_TRUE(proof);
+      EXPECT_EQ(proof->answer, CastAnswer::miss) << to_string(shape.kind) << ' ' << power;
+      EXPECT_EQ(checked.fault(*proof), "");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchstone
