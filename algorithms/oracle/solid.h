@@ -64,6 +64,9 @@ struct Body {
       : solid(&s), matrix(pose.rotation), translation(pose.translation) {}
   Body(const Solid& s, const std::array<double, 4>& q, const Vec3d& t)
       : solid(&s), translation(t), quaternion(q) {}
+
+  // True if all numbers of the matrix and the translation are. Others are no body.
+  bool is_finite() const { return matrix.allFinite() && translation.allFinite(); }
 };
 
 }  // namespace touchstone::oracle

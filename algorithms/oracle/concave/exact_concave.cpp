@@ -140,7 +140,7 @@ class ExactConcave final : public ConcavePhase {
         !parts_b.empty()) {
       outcome = nearest(parts_a, parts_b);
       outcome.answer = Answer::separated;
-      outcome.status = Status::ok;
+      outcome.status = std::isfinite(outcome.upper) ? Status::ok : Status::degenerate;
     }
   }
 
@@ -166,6 +166,8 @@ class ExactConcave final : public ConcavePhase {
   }
 
   Answer verdict(const ExactPart& a, const ExactPart& b) {
+    // Products of poses may be beyond doubles.
+    if (!a.body.is_finite() || !b.body.is_finite()) return Answer::unknown;
     const double rounding = a.rounding + b.rounding;
     if (rounding == 0) return oracle_.verdict(a.body, b.body);
     const Measure measure = oracle_.measure(a.body, b.body);
@@ -174,6 +176,10 @@ class ExactConcave final : public ConcavePhase {
   }
 
   void consider(const ExactPart& a, const ExactPart& b, Outcome& nearest) {
+    if (!a.body.is_finite() || !b.body.is_finite()) {
+      nearest.lower = 0;
+      return;
+    }
     Outcome found;
     oracle::answer(oracle_, a.body, b.body, Task::distance, found);
     const double rounding = a.rounding + b.rounding;

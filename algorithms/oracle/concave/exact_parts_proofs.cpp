@@ -122,11 +122,16 @@ class Walk {
     const RationalCore core_a = a_.parts.core(i), core_b = b_.parts.core(j);
     const ApartBy by{a_.parts.radius(i) + b_.parts.radius(j), oracle::rational(least_)};
     Certificate found;
-    const Measure measure = oracle_.prove(a_.rounded(i), b_.rounded(j), found);
+    double upper = HUGE_VAL;
+    const Body rounded_a = a_.rounded(i), rounded_b = b_.rounded(j);
+    // Products of poses may be beyond doubles.
+    if (rounded_a.is_finite() && rounded_b.is_finite()) {
+      upper = oracle_.prove(rounded_a, rounded_b, found).upper;
+    }
     const Proofs::Met met{{i, j}, found.a, found.b, found.closest, found.surface};
     if (has_set(core_a) && has_set(core_b)) {
       if (proofs_.claim == Proofs::Claim::distance) {
-        holds([&] { return consider(met, measure.upper, core_a, core_b, by.radii); });
+        holds([&] { return consider(met, upper, core_a, core_b, by.radii); });
       }
       if (core_a.is_halfspace() || core_b.is_halfspace()) {
         if (holds([&] { return is_parted(own_normal(core_a, core_b), core_a, core_b, by); })) {

@@ -146,7 +146,9 @@ bool BodyRayProver::write_upper(const RaySpan& ray, double t, BodyRayCertificate
     const Solid& solid = parts_.solid(part);
     if (solid.core == Solid::Core::polytope && solid.vertices.size() > 3 && !solid.is_box) {
       Certificate found;
-      oracle_.prove(Body(point, Pose{Mat3d::Identity(), rounded_vector(at)}), rounded(part), found);
+      const Body a(point, Pose{Mat3d::Identity(), rounded_vector(at)}), b = rounded(part);
+      if (!a.is_finite() || !b.is_finite()) continue;
+      oracle_.prove(a, b, found);
       certificate.generators = found.b;
       certificate.surface = found.surface;
     }
@@ -238,7 +240,9 @@ bool BodyRayProver::part_is_free(const RaySpan& span, std::uint32_t part, Steps&
   shape.hull = std::make_shared<const Hull>(std::move(hull));
   const Solid segment(shape);
   Certificate found;
-  oracle_.prove(Body(segment, Pose{}), rounded(part), found);
+  const Body body = rounded(part);
+  if (!body.is_finite()) return false;
+  oracle_.prove(Body(segment, Pose{}), body, found);
   const auto parted = parting(found.direction, span, is_parted);
   if (!parted) return false;
   steps.push_back({Kind::plane, *parted});

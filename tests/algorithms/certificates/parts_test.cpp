@@ -344,5 +344,25 @@ TEST(PartsCertificates, LargeMeshes) {
   }
 }
 
+// The oracle is not asked about poses whose products are beyond doubles; half-spaces do not need it.
+TEST(PartsCertificates, PosesWhoseProductsAreBeyondDoublesEndWithoutAnAnswer) {
+  const double great = 1e200;
+  const Pose huge{Mat3d(Mat3d::Identity() * great), Vec3d(-great, 0, 0)};
+  for (const Shape& shape : reference::shapes_of_all_kinds()) {
+    for (const Shape& other : {reference::make_sphere(1), reference::make_cone(1, 1)}) {
+      const ProvenPair pair = {body_of(shape, huge), body_of(other), huge, moved_by({0, 0, 5})};
+      for (const PartsClaim claim : reference::all_claims) {
+        const PartsCertificate proof = pair.prove(claim);
+        EXPECT_EQ(pair.fault(proof), "");
+        if (shape.kind == ShapeKind::halfspace && claim != PartsClaim::distance) {
+          EXPECT_EQ(proof.answer, Answer::separated);
+        } else if (shape.kind == ShapeKind::cylinder) {
+          EXPECT_EQ(proof.answer, Answer::unknown);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchstone
