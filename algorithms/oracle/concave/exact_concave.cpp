@@ -121,7 +121,8 @@ class ExactConcave final : public ConcavePhase {
     const std::vector<ExactPart> parts_a = parts(a), parts_b = parts(b);
     for (std::uint32_t i = 0; i < parts_a.size(); ++i) {
       for (std::uint32_t j = 0; j < parts_b.size(); ++j) {
-        if (!overlap(parts_a[i].box, parts_b[j].box)) continue;
+        const bool is_placed = parts_a[i].body.is_finite() && parts_b[j].body.is_finite();
+        if (is_placed && !overlap(parts_a[i].box, parts_b[j].box)) continue;
         const Answer answer = verdict(parts_a[i], parts_b[j]);
         if (answer == Answer::unknown) undecided = true;
         if (answer == Answer::touching || answer == Answer::overlapping) pairs.push_back({i, j});
@@ -140,7 +141,7 @@ class ExactConcave final : public ConcavePhase {
         !parts_b.empty()) {
       outcome = nearest(parts_a, parts_b);
       outcome.answer = Answer::separated;
-      outcome.status = std::isfinite(outcome.upper) ? Status::ok : Status::degenerate;
+      outcome.status = Status::ok;
     }
   }
 
@@ -176,10 +177,6 @@ class ExactConcave final : public ConcavePhase {
   }
 
   void consider(const ExactPart& a, const ExactPart& b, Outcome& nearest) {
-    if (!a.body.is_finite() || !b.body.is_finite()) {
-      nearest.lower = 0;
-      return;
-    }
     Outcome found;
     oracle::answer(oracle_, a.body, b.body, Task::distance, found);
     const double rounding = a.rounding + b.rounding;

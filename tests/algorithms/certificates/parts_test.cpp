@@ -356,8 +356,9 @@ TEST(PartsCertificates, PosesWhoseProductsAreBeyondDoublesEndWithoutAnAnswer) {
         EXPECT_EQ(pair.fault(proof), "");
         if (shape.kind == ShapeKind::halfspace && claim != PartsClaim::distance) {
           EXPECT_EQ(proof.answer, Answer::separated);
-        } else if (shape.kind == ShapeKind::cylinder) {
+        } else {
           EXPECT_EQ(proof.answer, Answer::unknown);
+          EXPECT_EQ(pair.solve(claim).outcome.answer, Answer::unknown);
         }
       }
     }
