@@ -46,6 +46,8 @@ bool has_type(const JsonNode& shape, const char* type) {
   return shape.at("type", "a shape's name").text("a shape's name") == type;
 }
 
+constexpr std::size_t most_nested = 1000;
+
 // Adds the parts of a compound that lies within others: `around` has their poses, the outermost
 // first.
 void add_parts(const JsonNode& compound, std::vector<Pose>& around, ConcaveBody& body) {
@@ -61,6 +63,10 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around, ConcaveBody&
       continue;
     }
     if (has_type(shape, "compound")) {
+      if (around.size() == most_nested) {
+        compound.fail(fmt::format(
+            "compounds are more than {} deep within each other; expected fewer", most_nested));
+      }
       around.push_back(read_pose(node));
       add_parts(shape, around, body);
       around.pop_back();

@@ -116,6 +116,13 @@ TEST_F(MeshCertificates, WhatIsMalformedIsToldWithItsPlace) {
               HasSubstr("mesh.triangles[0]"));
   EXPECT_THAT(fault(R"({"mesh":{"type":"box","vertices":[],"triangles":[]}})", true),
               HasSubstr("in.jsonl:1: mesh.type: found \"box\"; expected \"mesh\""));
+  // Compounds within compounds are read by recursion.
+  std::string nested = R"({"shape":{"type":"sphere","radius":1}})";
+  for (int i = 0; i < 20000; ++i) {
+    nested.insert(0, R"({"shape":{"type":"compound","parts":[)").append("]}}");
+  }
+  EXPECT_THAT(fault("{\"body\":" + nested + "}", true),
+              HasSubstr("in.jsonl:1: body.shape.parts[0]"));
   EXPECT_THAT(fault(R"({"mesh":7})", false), HasSubstr("in.jsonl:1: mesh: found 7"));
   for (const std::string key : {"task", "origin", "direction", "t_max", "hit", "triangle", "t"}) {
     expect_fault(ray_text, "\"" + key + "\"", "\"x\"", true, "no \"" + key + "\"");
