@@ -254,11 +254,13 @@ Vec3d BodyRayProver::way_of(const RaySpan& span) const {
   if (span.end) return rounded_vector(*span.end * span.direction);
   double reach = rounded_vector(span.origin).stableNorm() + pose_.translation.stableNorm() +
                  parts_.greatest_radius().get_d();
+  // The matrix lengthens nothing by more than this. Eigen's stableNorm of a matrix reads beyond it.
+  const double stretch = 3 * pose_.rotation.cwiseAbs().maxCoeff();
   for (const auto& box : parts_.boxes()) {
     if (!box) continue;
     const Vec3d low = rounded_vector(box->low), high = rounded_vector(box->high);
     const double size = low.cwiseAbs().cwiseMax(high.cwiseAbs()).stableNorm();
-    reach = std::max(reach, reach / 2 + pose_.rotation.stableNorm() * size);
+    reach = std::max(reach, reach / 2 + stretch * size);
   }
   return 4 * reach * rounded_vector(span.direction).stableNormalized();
 }
