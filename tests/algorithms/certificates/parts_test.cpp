@@ -60,7 +60,7 @@ TEST(PartsCertificates, MeshesOfAllFamilies) {
                                      body_of(TriangleMesh{})};
   for (auto& [name, mesh] : families::closed_meshes()) {
     mesh.solid = true;
-    if (mesh.triangles.size() < 400 / std::min(one_in, 4)) bodies.push_back(body_of(mesh));
+    if (mesh.triangles.size() < 400) bodies.push_back(body_of(mesh));
   }
   Counts counts;
   for (int i = 0; i < drawn(90, 8); ++i) {
