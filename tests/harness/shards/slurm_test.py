@@ -10,6 +10,7 @@ import random
 import re
 import shutil
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -93,13 +94,20 @@ class Test:
             # started: it starts it again, is refused, and holds the job, until an operator lets it go on.
             self.cluster.repair()
             task = plan.catch(lambda task: plan.has_rows(task.shard))
-            if self.cluster.run("scancel", "--batch", "--signal=TERM", task.job, check=False).returncode == 0:
-                return task
+            try:
+                done = self.cluster.run("scancel", "--batch", "--signal=TERM", task.job, check=False, timeout=5)
+                if done.returncode == 0:
+                    return task
+            except subprocess.TimeoutExpired:
+                # It tries again for a minute and more, while the job waits for the task that is held.
+                with contextlib.suppress(FileNotFoundError):
+                    if pending(task.process, signal.SIGTERM):
+                        return task
             with contextlib.suppress(ProcessLookupError):
                 task.signal(signal.SIGCONT)
             return None
 
-        self.expect_told(plan, wait_until(told, 90, "a task that can be told to stop"), 10)
+        self.expect_told(plan, wait_until(told, 180, "a task that can be told to stop"), 10)
 
     def expect_told(self, plan, told, seconds):
         wait_until(lambda: pending(told.process, signal.SIGTERM), seconds, "the signal in the program")
