@@ -58,9 +58,9 @@ void PartDepths::place(const PlacedConcave& body, std::uint32_t part, Side& side
   side.placed = bound.place(body.pose, part, reaches_[number]);
 }
 
-// The depth is the radius less the distance of the centre, or of the segment, which the nearest points bound from
-// above, and the plane across the way between them from below. A segment that does not cross an edge of the triangle, seen
-// along that way, is nearest with an end.
+// The depth is the radius less the distance of the centre, or of the segment, which the nearest points bound
+// from above, and the plane across the way between them from below. A segment that does not cross an edge of
+// the triangle, seen along that way, is nearest with an end.
 bool PartDepths::find_depth_of_round(const Side& round, const Side& triangle, Outcome& outcome) {
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   constexpr double least_part = 0x1p-20;  // of the reach: a shorter way has no direction

@@ -1,8 +1,8 @@
 // Part of the oracle, used by exact_cast: whether bodies that do not turn, and are in contact at the start, approach.
 //
-// Along a fixed direction the bodies are deepest at the start or at the end, because the depth is linear in time. So the
-// least depth that any direction keeps is that of b in all that a covers while it moves past b: one question for the
-// oracle.
+// Along a fixed direction the bodies are deepest at the start or at the end, because the depth is linear in time.
+// So the least depth that any direction keeps is that of b in all that a covers while it moves past b: one
+// question for the oracle.
 #pragma once
 
 #include "algorithms/core/motion.h"

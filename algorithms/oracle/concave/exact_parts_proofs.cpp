@@ -27,16 +27,6 @@ namespace {
 using Kind = PartsCertificate::Step::Kind;
 using Proofs = PartsCertificate;
 
-Vec3d centre_of(const std::optional<RationalBox>& box) {
-  Vec3d centre = Vec3d::Zero();
-  if (!box) return centre;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double middle = mpq_class((box->low[k] + box->high[k]) / 2).get_d();
-    if (std::isfinite(middle)) centre[static_cast<Eigen::Index>(k)] = middle;
-  }
-  return centre;
-}
-
 // One of the two bodies.
 struct ProvenBody {
   const ConcaveBody& given;
@@ -49,14 +39,9 @@ struct ProvenBody {
       : given(body),
         pose(placed),
         parts(body, placed),
-        order(order_of(parts)),
+        order(spatial_order(parts.boxes())),
         tree(order, parts.boxes()) {}
 
-  static std::vector<std::uint32_t> order_of(const PlacedParts& parts) {
-    std::vector<Vec3d> centres;
-    for (const auto& box : parts.boxes()) centres.push_back(centre_of(box));
-    return spatial_order(centres);
-  }
   Body rounded(std::uint32_t part) const {
     const Pose at = given.mesh ? pose : composed(pose, given.parts[part].pose, 1).pose;
     return {parts.solid(part), at};

@@ -50,17 +50,6 @@ std::optional<IntegerVector> parting(const IntegerVector& direction, const RaySp
   return multiple(across);
 }
 
-std::vector<std::uint32_t> order_of(const PlacedParts& parts) {
-  std::vector<Vec3d> centres;
-  for (const auto& box : parts.boxes()) {
-    centres.push_back(Vec3d::Zero());
-    if (!box) continue;
-    const Vec3d centre = rounded_vector(mpq_class(1, 2) * (box->low + box->high));
-    if (centre.allFinite()) centres.back() = centre;
-  }
-  return spatial_order(centres);
-}
-
 }  // namespace
 
 struct BodyRayProver::Solver {
@@ -72,7 +61,7 @@ BodyRayProver::BodyRayProver(const ConcaveBody& body, const Pose& pose)
     : body_(body),
       pose_(pose),
       parts_(body, pose),
-      order_(order_of(parts_)),
+      order_(spatial_order(parts_.boxes())),
       tree_(order_, parts_.boxes()),
       solver_(std::make_unique<Solver>()) {
   solver_->bodies = {{body, pose}};

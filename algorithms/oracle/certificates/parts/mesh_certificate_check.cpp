@@ -75,14 +75,8 @@ CheckedMesh::CheckedMesh(const TriangleMesh& mesh) {
   invalid_ = reason([&] {
     mesh_.emplace(mesh);
     std::vector<std::optional<RationalBox>> boxes;
-    std::vector<Vec3d> centres;
-    for (std::size_t i = 0; i < mesh_->size(); ++i) {
-      boxes.emplace_back(box_of(mesh_->triangle(i)));
-      Vec3d centre = Vec3d::Zero();
-      for (const std::uint32_t corner : mesh.triangles[i]) centre += mesh.vertices[corner] / 4;
-      centres.push_back(centre);
-    }
-    tree_.emplace(spatial_order(centres), boxes);
+    for (std::size_t i = 0; i < mesh_->size(); ++i) boxes.emplace_back(box_of(mesh_->triangle(i)));
+    tree_.emplace(spatial_order(boxes), boxes);
   });
   if (invalid_.empty()) open_ = reason([&] { mesh_->require_closed(); });
 }

@@ -2,7 +2,10 @@
 #include "algorithms/oracle/certificates/parts/part_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include "algorithms/core/vec.h"
 
 namespace touchstone::oracle {
 namespace {
@@ -22,6 +25,17 @@ void halve(std::span<std::uint32_t> order, std::span<const Vec3d> centres) {
   });
   halve(order.first(order.size() / 2), centres);
   halve(order.subspan(order.size() / 2), centres);
+}
+
+// What is beyond doubles counts as 0.
+Vec3d rounded_centre(const std::optional<RationalBox>& box) {
+  Vec3d centre = Vec3d::Zero();
+  if (!box) return centre;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double middle = mpq_class((box->low[k] + box->high[k]) / 2).get_d();
+    if (std::isfinite(middle)) centre[static_cast<Eigen::Index>(k)] = middle;
+  }
+  return centre;
 }
 
 }  // namespace
@@ -60,7 +74,10 @@ void PartTree::enclose(const PartNode& node, std::span<const std::optional<Ratio
   if (a && b) boxes_[node.number] = around(*a, *b);
 }
 
-std::vector<std::uint32_t> spatial_order(std::span<const Vec3d> centres) {
+std::vector<std::uint32_t> spatial_order(std::span<const std::optional<RationalBox>> boxes) {
+  std::vector<Vec3d> centres;
+  centres.reserve(boxes.size());
+  for (const auto& box : boxes) centres.push_back(rounded_centre(box));
   std::vector<std::uint32_t> order(centres.size());
   std::iota(order.begin(), order.end(), 0u);
   halve(order, centres);

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/core/vec.h"
 #include "algorithms/oracle/certificates/rationals.h"
 
 namespace touchstone::oracle {
@@ -53,7 +52,8 @@ class PartTree {
   std::vector<std::optional<RationalBox>> boxes_;
 };
 
-// An order in which parts that are near each other are mostly in one half. The centres are finite.
-std::vector<std::uint32_t> spatial_order(std::span<const Vec3d> centres);
+// An order in which parts that are near each other are mostly in one half, as doubles tell. Those without a box
+// count as at the origin.
+std::vector<std::uint32_t> spatial_order(std::span<const std::optional<RationalBox>> boxes);
 
 }  // namespace touchstone::oracle

@@ -15,7 +15,7 @@ struct Lengths {
   bool operator==(const Lengths&) const = default;
 };
 
-constexpr std::uint64_t queries_of_a_call = 50;
+inline constexpr std::uint64_t queries_of_a_call = 50;
 
 // The size of the features (metres) of the query with this number, and its lengths without a separation.
 struct CcdSize {
@@ -23,8 +23,9 @@ struct CcdSize {
 };
 CcdSize ccd_size(std::uint64_t index);
 
-// The lengths of the query with this number where a separation counts as contact. Of every sixteenth query it is half the
-// tolerance more or less than a least distance to which the features come, so that the verdict is a close one.
+// The lengths of the query with this number where a separation counts as contact. Of every sixteenth query it is
+// half the tolerance more or less than a least distance to which the features come, so that the verdict is a
+// close one.
 Lengths separated_lengths(std::uint64_t index, const CcdQuery& query, int first_count,
                           oracle::Oracle& oracle);
 
