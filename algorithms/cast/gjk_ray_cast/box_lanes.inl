@@ -1,5 +1,5 @@
 // Part of gjk-ray-cast-lanes, included by box_lanes.cpp for each level of vector instructions.
-#include "algorithms/cast/gjk_ray_cast/lane_rows.inl"
+#include "algorithms/kernels/simd/lane_rows.inl"
 
 // When the shadows of a lane's boxes overlap, over all axes seen so far.
 struct LaneShadows {

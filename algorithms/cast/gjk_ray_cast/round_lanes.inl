@@ -1,5 +1,5 @@
 // Part of gjk-ray-cast-lanes, included by round_lanes.cpp for each level of vector instructions.
-#include "algorithms/cast/gjk_ray_cast/lane_rows.inl"
+#include "algorithms/kernels/simd/lane_rows.inl"
 
 // A parallelogram about 0 in each lane.
 struct Parallelogram {

@@ -39,14 +39,23 @@ struct MovingBatch {
 
 bool is_same(double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; }
 
+struct LanesOf {
+  const char *lanes, *plain;
+  ShapeKind a, b;
+};
+
 TEST(CastLanes, AgreeWithOnePairAtATime) {
   Random random(51);
   int hits = 0, misses = 0, asked = 0;
-  const CastEntry &lanes = *find_cast("gjk-ray-cast-lanes"), &plain = *find_cast("gjk-ray-cast");
-  for (const auto& [a, b] : {std::pair(ShapeKind::sphere, ShapeKind::sphere),
-                             {ShapeKind::sphere, ShapeKind::capsule},
-                             {ShapeKind::capsule, ShapeKind::capsule},
-                             {ShapeKind::box, ShapeKind::box}}) {
+  using enum ShapeKind;
+  for (const auto& [lanes_name, plain_name, a, b] :
+       {LanesOf{"gjk-ray-cast-lanes", "gjk-ray-cast", sphere, sphere},
+        {"gjk-ray-cast-lanes", "gjk-ray-cast", sphere, capsule},
+        {"gjk-ray-cast-lanes", "gjk-ray-cast", capsule, capsule},
+        {"gjk-ray-cast-lanes", "gjk-ray-cast", box, box},
+        {"mpr-ray-cast-lanes", "mpr-ray-cast", hull, hull},
+        {"mpr-ray-cast-lanes", "mpr-ray-cast", box, hull}}) {
+    const CastEntry &lanes = *find_cast(lanes_name), &plain = *find_cast(plain_name);
     MovingBatch batch;
     std::vector<MovingPairCase> cases;
     for (int i = 0; i < drawn(301, 61); ++i) {
@@ -70,6 +79,15 @@ TEST(CastLanes, AgreeWithOnePairAtATime) {
       batch.add(c);
     }
     const std::vector<CastOutcome> together = batch.solve(*lanes.make({}));
+    for (const Isa level : isa_levels()) {
+      limit_isa(level);
+      const std::vector<CastOutcome> at_level = batch.solve(*lanes.make({}));
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        EXPECT_TRUE(is_same(together[i].lower, at_level[i].lower)) << i << to_string(level);
+        EXPECT_TRUE(is_same(together[i].upper, at_level[i].upper)) << i << to_string(level);
+      }
+    }
+    limit_isa(isa_of_machine());
     for (std::size_t i = 0; i < cases.size(); ++i) {
       ++asked;
       const CastOutcome alone = solve(lanes, cases[i]);

@@ -91,23 +91,29 @@ double LinearCast::tolerance(std::uint32_t shape_a, std::uint32_t shape_b) const
 }
 
 void LinearCast::solve(const CastBatch& batch, std::size_t i, CastOutcome& outcome) {
-  const MovingBody a = scene_.body(batch, batch.pairs.first[i]);
-  const MovingBody b = scene_.body(batch, batch.pairs.second[i]);
   outcome = {};
   if (batch.kind_b == ShapeKind::halfspace) {
+    const MovingBody a = scene_.body(batch, batch.pairs.first[i]);
+    const MovingBody b = scene_.body(batch, batch.pairs.second[i]);
     cast_halfspace(*a.shape, *a.pose, *a.motion, *b.shape, *b.pose, *b.motion,
                    {settings_.tolerance, settings_.start}, outcome);
-  } else {
-    cast_bounded(a, b, outcome);
+    return;
   }
+  std::optional<Begun> begun;
+  if (!begin(batch, i, begun, outcome)) return;
+  PathContact found;
+  const PathEnd end = search_(begun->pair, begun->tolerance, most_iterations_, found);
+  finish(*begun, end, found, outcome);
 }
 
 void LinearCast::solve(const CastBatch& batch, std::span<CastOutcome> outcomes) {
   for (std::size_t i = 0; i < batch.size(); ++i) solve(batch, i, outcomes[i]);
 }
 
-void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b, CastOutcome& outcome) {
-  constexpr double rounding = MovingPair::rounding;
+bool LinearCast::begin(const CastBatch& batch, std::size_t i, std::optional<Begun>& begun,
+                       CastOutcome& outcome) const {
+  const MovingBody a = scene_.body(batch, batch.pairs.first[i]);
+  const MovingBody b = scene_.body(batch, batch.pairs.second[i]);
   outcome.status = Status::ok;
   outcome.iterations = 0;
   const CentreOffset offset = centre_offset(*a.shape, *a.pose, *b.shape, *b.pose);
@@ -116,24 +122,31 @@ void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b, CastOutc
   const BallVerdict balls = ask_balls(offset, a, b, reach_a + reach_b, metres);
   if (balls == BallVerdict::miss) {
     outcome.answer = CastAnswer::miss;
-    return;
+    return false;
   }
   if (balls == BallVerdict::overlap) {
     outcome.answer = CastAnswer::hit;
     outcome.toi = outcome.lower = outcome.upper = 0;
     outcome.point = point_in_balls(offset, a, b);
-    return;
+    return false;
   }
-  MovingPair pair(offset, b.motion->displacement - a.motion->displacement, reach_a + reach_b,
-                  *a.shape, a.pose->rotation, *b.shape, b.pose->rotation);
-  if (!pair.is_in_range()) {
-    outcome.status = Status::degenerate;
-    return;
-  }
-  PathContact found;
-  // A gap that rounding hides can be told neither from contact nor from a miss.
-  const double tolerance = std::max(metres / pair.unit(), 4 * rounding);
-  const PathEnd end = search_(pair, tolerance, most_iterations_, found);
+  begun.emplace(a, b, offset, reach_a + reach_b, metres);
+  if (begun->pair.is_in_range()) return true;
+  outcome.status = Status::degenerate;
+  return false;
+}
+
+void LinearCast::write_hit(const Begun& begun, double time, const Vec3d& on_a,
+                           CastOutcome& outcome) {
+  const MovingBody& a = begun.a;
+  outcome.answer = CastAnswer::hit;
+  outcome.toi = time;
+  outcome.point = a.pose->rotation * a.shape->centre + a.pose->translation +
+                  time * a.motion->displacement + begun.pair.unit() * on_a;
+}
+
+void LinearCast::finish(Begun& begun, PathEnd end, PathContact& found, CastOutcome& outcome) {
+  auto& [a, b, pair, tolerance] = begun;
   outcome.iterations = found.iterations;
   if (end == PathEnd::miss) {
     outcome.answer = CastAnswer::miss;
@@ -157,8 +170,6 @@ void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b, CastOutc
       return;
     }
   }
-  outcome.answer = CastAnswer::hit;
-  outcome.toi = pair.time();
   const Vec3d normal = at_start ? touching_normal(pair, found, tolerance) : found.plane;
   if (!normal.isZero(0)) outcome.normal = normal;
 
@@ -169,8 +180,7 @@ void LinearCast::cast_bounded(const MovingBody& a, const MovingBody& b, CastOutc
     reduce_to_nearest(feature);
   }
   const DifferencePoint<double> witness = weighted_mean(feature);
-  outcome.point = a.pose->rotation * a.shape->centre + a.pose->translation +
-                  outcome.toi * a.motion->displacement + pair.unit() * pair.between_balls(witness);
+  write_hit(begun, pair.time(), pair.between_balls(witness), outcome);
 
   pair.set_inner_radius(a.inner_radius() + b.inner_radius());
   found.simplex = feature;

@@ -54,9 +54,33 @@ class LinearCast {
   // Metres, for a pair of shapes of the scene.
   double tolerance(std::uint32_t shape_a, std::uint32_t shape_b) const;
 
- private:
-  void cast_bounded(const MovingBody& a, const MovingBody& b, CastOutcome& outcome);
+  // What `solve` does of a pair of bounded bodies, in two parts, with a search between them.
+  struct Begun {
+    // The reach is as MovingPair has it; the tolerance is in metres.
+    Begun(const MovingBody& body_a, const MovingBody& body_b, const CentreOffset& offset,
+          double reach, double metres)
+        : a(body_a),
+          b(body_b),
+          pair(offset, b.motion->displacement - a.motion->displacement, reach, *a.shape,
+               a.pose->rotation, *b.shape, b.pose->rotation),
+          tolerance(std::max(metres / pair.unit(), 4 * MovingPair::rounding)) {}
 
+    MovingBody a, b;
+    MovingPair pair;
+    // In the pair's unit. A gap that rounding hides can be told neither from contact nor from a miss.
+    double tolerance;
+  };
+  // Places the pair and returns true, if balls of the bodies do not tell its answer. Otherwise the outcome is
+  // written.
+  bool begin(const CastBatch& batch, std::size_t i, std::optional<Begun>& begun,
+             CastOutcome& outcome) const;
+  // Writes a hit at the time, at this point of body a (relative to its centre, in the pair's unit and world axes).
+  static void write_hit(const Begun& begun, double time, const Vec3d& on_a, CastOutcome& outcome);
+  // Writes the outcome of a search.
+  void finish(Begun& begun, PathEnd end, PathContact& found, CastOutcome& outcome);
+  int most_iterations() const { return most_iterations_; }
+
+ private:
   CastSettings settings_;
   int most_iterations_;
   PathSearch search_;

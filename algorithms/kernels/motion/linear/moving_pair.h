@@ -45,11 +45,24 @@ class MovingPair {
     return point;
   }
 
+  Vec3d corner_of_a(std::uint32_t corner) const { return a_.corner(corner); }
+  // The point of the difference of two corners.
+  DifferencePoint<double> of_corners(const CornerPair& corners) const {
+    DifferencePoint<double> point;
+    point.a = a_.corner(corners.a);
+    point.b = b_.corner(corners.b);
+    point.difference = point.a - (point.b + offset_);
+    return point;
+  }
+
   // Sets the time, and moves the differences of a simplex there.
   void move_to(double time, Simplex<double>& simplex);
 
   const SupportShape<double>& shape_a() const { return a_.shape(); }
   const SupportShape<double>& shape_b() const { return b_.shape(); }
+  // The bodies' rotations, times their shapes' units over the pair's.
+  const Mat3d& matrix_a() const { return a_.matrix(); }
+  const Mat3d& matrix_b() const { return b_.matrix(); }
   double time() const { return time_; }
   const Vec3d& start() const { return start_; }
   const Vec3d& offset() const { return offset_; }

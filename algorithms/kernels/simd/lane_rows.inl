@@ -1,4 +1,4 @@
-// Part of gjk-ray-cast-lanes: loads the numbers of pairs, one pair a lane. box_lanes.inl and round_lanes.inl
+// The numbers of pairs, one pair a lane, for casts in lanes. box_lanes.inl, round_lanes.inl and portal_lanes.inl
 // include this file for each level of vector instructions.
 #include "algorithms/kernels/simd/vector3.inl"
 
