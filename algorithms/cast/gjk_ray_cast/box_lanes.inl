@@ -14,7 +14,48 @@ struct LaneShadows {
   typename Lanes::Mask miss;
 };
 
-// Takes an axis at which the boxes' half edges reach so far. `counts`: the lanes whose axis is well defined.
+// Two boxes in each lane.
+struct LaneBoxes {
+  using Vector = typename Simd<double>::Vector;
+  Vector3<double> columns[2][3], edges[2][3];
+  Vector3<double> offset, velocity;
+  // Across edges, where they are not nearly parallel.
+  Vector3<double> across[3][3];
+  typename Simd<double>::Mask is_axis[3][3];
+};
+
+// Calls visit(axis, reach, counts) for the 15 axes: the boxes' half edges reach so far along it, and it is well
+// defined in the lanes that count.
+template <class Visit>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void for_each_axis(const LaneBoxes& boxes, Visit& visit) {
+  using Lanes = Simd<double>;
+  using Vector = typename Lanes::Vector;
+  const auto& [columns, edges, offset, velocity, across, is_axis] = boxes;
+  const auto all = Lanes::less(Lanes::broadcast(0), Lanes::broadcast(1));
+  for (std::size_t body = 0; body < 2; ++body) {
+    const std::size_t other = 1 - body;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      const Vector3<double> n = cross<double>(columns[body][j], columns[body][k]);
+      const Vector reach = Lanes::abs(dot<double>(n, edges[body][i])) +
+                           ((Lanes::abs(dot<double>(n, edges[other][0])) +
+                             Lanes::abs(dot<double>(n, edges[other][1]))) +
+                            Lanes::abs(dot<double>(n, edges[other][2])));
+      visit(n, reach, all);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3<double>& n = across[i][k];
+      const Vector reach = (Lanes::abs(dot<double>(n, edges[0][(i + 1) % 3])) +
+                            Lanes::abs(dot<double>(n, edges[0][(i + 2) % 3]))) +
+                           (Lanes::abs(dot<double>(n, edges[1][(k + 1) % 3])) +
+                            Lanes::abs(dot<double>(n, edges[1][(k + 2) % 3])));
+      visit(n, reach, is_axis[i][k]);
+    }
+  }
+}
+
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void add_axis(LaneShadows& shadows, const Vector3<double>& n,
                                                   const Vector3<double>& offset,
                                                   const Vector3<double>& velocity,
@@ -61,6 +102,39 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void add_axis(LaneShadows& shadows, const Ve
                                       sure_end, shadows.surely_ends);
 }
 
+// Adds each axis to the shadows.
+struct AddAxis {
+  const LaneBoxes& boxes;
+  LaneShadows& shadows;
+
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE void operator()(const Vector3<double>& axis,
+                                                      typename Simd<double>::Vector reach,
+                                                      typename Simd<double>::Mask counts) {
+    add_axis(shadows, axis, boxes.offset, boxes.velocity, reach, counts);
+  }
+};
+
+// Finds the axis along which boxes at time 0 are furthest apart, or least deep in each other.
+struct FindTouch {
+  using Vector = typename Simd<double>::Vector;
+  const LaneBoxes& boxes;
+  Vector gap;  // along the normal
+  Vector3<double> normal;
+
+  TOUCHSTONE_TARGET TOUCHSTONE_INLINE void operator()(const Vector3<double>& axis, Vector reach,
+                                                      typename Simd<double>::Mask counts) {
+    using Lanes = Simd<double>;
+    const Vector zero = Lanes::broadcast(0);
+    const Vector start = dot<double>(axis, boxes.offset);
+    const Vector apart = (Lanes::abs(start) - reach) / length_of(axis);
+    const auto better = both(counts, Lanes::less(gap, apart));
+    gap = Lanes::select(better, apart, gap);
+    normal = select<double>(
+        better, select<double>(Lanes::less(start, zero), {-axis.x, -axis.y, -axis.z}, axis),
+        normal);
+  }
+};
+
 TOUCHSTONE_TARGET inline void cast_lanes(const BoxLane* boxes, LaneTimes* times,
                                          std::size_t count) {
   using Lanes = Simd<double>;
@@ -71,18 +145,21 @@ TOUCHSTONE_TARGET inline void cast_lanes(const BoxLane* boxes, LaneTimes* times,
   alignas(64) double rows[numbers][width];
   load_rows(boxes, count, rows);
   const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
-  Vector3<double> columns[2][3], edges[2][3];
-  Vector extents[2][3];
+  LaneBoxes both_boxes;
+  auto& [columns, edges, offset, velocity, across, is_axis] = both_boxes;
+  Vector size = zero;
   for (std::size_t body = 0; body < 2; ++body) {
+    Vector own = zero;
     for (std::size_t k = 0; k < 3; ++k) {
       columns[body][k] = three_rows(rows + 9 * body + 3 * k);
-      extents[body][k] = Lanes::load(rows[18 + 3 * body + k]);
-      edges[body][k] = scaled<double>(extents[body][k], columns[body][k]);
+      const Vector extent = Lanes::load(rows[18 + 3 * body + k]);
+      edges[body][k] = scaled<double>(extent, columns[body][k]);
+      own = own + extent;
     }
+    size = size + own;
   }
-  const Vector3<double> offset = three_rows(rows + 24), velocity = three_rows(rows + 27);
-  Vector size = zero;
-  for (const auto& body : extents) size = size + (body[0] + body[1] + body[2]);
+  offset = three_rows(rows + 24);
+  velocity = three_rows(rows + 27);
 
   LaneShadows shadows;
   shadows.offset_error =
@@ -94,8 +171,6 @@ TOUCHSTONE_TARGET inline void cast_lanes(const BoxLane* boxes, LaneTimes* times,
   shadows.normal = {zero, zero, zero};
   shadows.miss = Lanes::less(one, zero);
   // Pairs of edges that are parallel are found first, since all axes allow for them.
-  Vector3<double> across[3][3];
-  Mask is_axis[3][3];
   shadows.parallel = zero;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -106,37 +181,23 @@ TOUCHSTONE_TARGET inline void cast_lanes(const BoxLane* boxes, LaneTimes* times,
       shadows.parallel = shadows.parallel + Lanes::select(is_axis[i][k], zero, off);
     }
   }
-  const Mask all = Lanes::less(zero, one);
-  for (std::size_t body = 0; body < 2; ++body) {
-    const std::size_t other = 1 - body;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      const Vector3<double> n = cross<double>(columns[body][j], columns[body][k]);
-      const Vector reach = Lanes::abs(dot<double>(n, edges[body][i])) +
-                           ((Lanes::abs(dot<double>(n, edges[other][0])) +
-                             Lanes::abs(dot<double>(n, edges[other][1]))) +
-                            Lanes::abs(dot<double>(n, edges[other][2])));
-      add_axis(shadows, n, offset, velocity, reach, all);
-    }
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3<double>& n = across[i][k];
-      const Vector reach = (Lanes::abs(dot<double>(n, edges[0][(i + 1) % 3])) +
-                            Lanes::abs(dot<double>(n, edges[0][(i + 2) % 3]))) +
-                           (Lanes::abs(dot<double>(n, edges[1][(k + 1) % 3])) +
-                            Lanes::abs(dot<double>(n, edges[1][(k + 2) % 3])));
-      add_axis(shadows, n, offset, velocity, reach, is_axis[i][k]);
-    }
-  }
+  AddAxis add{both_boxes, shadows};
+  for_each_axis(both_boxes, add);
   const Mask miss = either(shadows.miss, Lanes::less(shadows.ends, shadows.begins));
   const Mask in_time = both(Lanes::less_equal(shadows.surely, shadows.surely_ends),
                             Lanes::less_equal(shadows.surely, one));
   const Vector path = (shadows.surely - shadows.begins) * length_of(velocity);
-  const Mask hit = both(both(in_time, Lanes::less(zero, shadows.begins)),
-                        both(Lanes::less_equal(path, Lanes::load(rows[30])),
-                             Lanes::less_equal(shadows.begins, shadows.surely)));
+  const Vector tolerance = Lanes::load(rows[30]);
+  const Mask hit = both(in_time, both(Lanes::less_equal(path, tolerance),
+                                      Lanes::less_equal(shadows.begins, shadows.surely)));
   const unsigned misses = Lanes::to_bits(miss), hits = Lanes::to_bits(hit) & ~misses;
+  const Mask at_start = both(hit, Lanes::less_equal(shadows.begins, zero));
+  if (Lanes::to_bits(at_start) != 0) {
+    // Bodies that are deeper in each other than the tolerance have no normal.
+    FindTouch touch{both_boxes, -tolerance, {zero, zero, zero}};
+    for_each_axis(both_boxes, touch);
+    shadows.normal = select<double>(at_start, touch.normal, shadows.normal);
+  }
   alignas(64) double out[5][width];
   const Vector results[5] = {shadows.begins, shadows.surely, shadows.normal.x, shadows.normal.y,
                              shadows.normal.z};

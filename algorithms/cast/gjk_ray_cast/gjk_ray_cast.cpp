@@ -18,7 +18,7 @@
 //          Half-spaces are solved in closed form (motion/halfspace_cast). gjk-ray-cast-lanes solves boxes
 //          in lanes by the times at which their shadows on the 15 axes meet (box_lanes), without a point
 //          of contact, spheres and capsules by planes at their nearest points (round_lanes), and one by
-//          one as here what is left: contact at the start, grazes, and edges that are nearly parallel.
+//          one as here what is left: grazes, edges that are nearly parallel, and from a touch whether bodies approach.
 // Fails:   unknown / not_converged at the cap. Bodies that graze by less than the tolerance are a hit
 //          without `upper`. With StartContact::approach, EPA tells bodies that get deeper from those that
 //          keep to a plane (motion/linear/approach.h); it may leave curved bodies unknown / not_converged.
@@ -38,7 +38,9 @@ namespace {
 class GjkRayCast final : public Cast {
  public:
   GjkRayCast(const CastSettings& settings, bool lanes)
-      : one_(settings, search_by_gjk), lanes_(lanes) {}
+      : one_(settings, search_by_gjk),
+        lanes_(lanes),
+        asks_approach_(settings.start == StartContact::approach) {}
 
   void bind(std::span<const Shape> shapes) override {
     source_ = shapes;
@@ -68,7 +70,7 @@ class GjkRayCast final : public Cast {
   std::vector<RoundLane> round_;
   std::vector<LaneTimes> times_;
   std::vector<std::size_t> places_;
-  bool lanes_;
+  bool lanes_, asks_approach_;
 };
 
 // What the lanes leave open is solved one pair at a time.
@@ -101,7 +103,8 @@ void GjkRayCast::solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, c
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const LaneTimes& times = times_[k];
     CastOutcome& outcome = outcomes[places_[k]];
-    if (!times.is_miss && !times.is_hit) {
+    const bool is_open = !times.is_miss && !times.is_hit;
+    if (is_open || (asks_approach_ && times.is_hit && !(times.lower > 0))) {
       one_.solve(batch, places_[k], outcome);
       continue;
     }
@@ -112,7 +115,7 @@ void GjkRayCast::solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, c
     if (times.is_miss) continue;
     outcome.toi = outcome.lower = times.lower;
     outcome.upper = times.upper;
-    outcome.normal = times.normal.normalized();
+    if (!times.normal.isZero(0)) outcome.normal = times.normal.normalized();
     const std::uint32_t a = pairs.first[places_[k]];
     outcome.point =
         pairs.poses[a].translation + outcome.toi * batch.motions[a].displacement + times.on_a;

@@ -92,7 +92,8 @@ TOUCHSTONE_TARGET inline void cast_lanes(const RoundLane* pairs, LaneTimes* time
     time = Lanes::select(goes, Lanes::min(reached, one), time);
     // Where they touch, the nearest points name it, unless the radii are no more than rounding.
     normal = select<double>(either(goes, both(touches, is_round)), n, normal);
-    speed = Lanes::select(goes, closing, speed);
+    const Mask at_start = both(touches, Lanes::less_equal(time, zero));
+    speed = Lanes::select(either(goes, at_start), closing, speed);
     // Past the first look, a lane that gains nothing is left open.
     unsigned stays = planes == 0 ? active : Lanes::to_bits(goes);
     stays &= ~Lanes::to_bits(either(miss, hit));
@@ -100,12 +101,16 @@ TOUCHSTONE_TARGET inline void cast_lanes(const RoundLane* pairs, LaneTimes* time
     look = time;
   }
 
-  // A little later the bodies are surely nearer than the radii.
+  // Bodies that overlap at time 0, and whose axes do not meet.
+  const Mask overlaps =
+      both(both(hit, Lanes::less_equal(time, zero)),
+           both(Lanes::less(zero, distance), Lanes::less(distance + error, radius)));
+  unsigned hits = Lanes::to_bits(overlaps);
+  Vector upper = Lanes::select(overlaps, zero, Lanes::broadcast(2));
+  // Otherwise, a little later the bodies are surely nearer than the radii.
   const Vector deep = Lanes::max(distance - radius, zero) + Lanes::broadcast(8) * error;
-  Vector step = deep / speed, upper = Lanes::broadcast(2);
-  unsigned open =
-      Lanes::to_bits(both(hit, both(Lanes::less(zero, speed), Lanes::less(zero, time))));
-  unsigned hits = 0;
+  Vector step = deep / speed;
+  unsigned open = Lanes::to_bits(both(hit, Lanes::less(zero, speed))) & ~hits;
   for (int k = 0; k < most_tries && open != 0; ++k) {
     const Vector later = Lanes::min(time + step, one);
     const Vector there =
