@@ -35,7 +35,9 @@ namespace {
 class MprRayCast final : public Cast {
  public:
   MprRayCast(const CastSettings& settings, bool lanes)
-      : one_(settings, search_by_portal), lanes_(lanes) {}
+      : one_(settings, search_by_portal),
+        lanes_(lanes),
+        asks_approach_(settings.start == StartContact::approach) {}
 
   void bind(std::span<const Shape> shapes) override { one_.bind(shapes); }
   void solve(const CastBatch& batch, std::span<CastOutcome> outcomes) override {
@@ -58,7 +60,7 @@ class MprRayCast final : public Cast {
                  PathContact& found) const;
 
   LinearCast one_;
-  bool lanes_;
+  bool lanes_, asks_approach_;
   // Scratch: the pairs in lanes, and their places in the batch. The queries point to the pairs.
   std::vector<std::optional<LinearCast::Begun>> begun_;
   std::vector<std::size_t> places_;
@@ -83,7 +85,7 @@ void MprRayCast::solve_lanes(const CastBatch& batch, std::size_t first, std::siz
   search_portals(queries_, one_.most_iterations(), answers_);
   for (std::size_t k = 0; k < queries_.size(); ++k) {
     CastOutcome& outcome = outcomes[places_[k]];
-    if (answers_[k].is_proven) {
+    if (answers_[k].is_proven && (answers_[k].time > 0 || !asks_approach_)) {
       write_proven(answers_[k], *begun_[k], outcome);
       continue;
     }

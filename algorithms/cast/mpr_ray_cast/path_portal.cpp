@@ -59,9 +59,14 @@ double lean_of(const MovingPair& pair) {
   return 0.45 * std::sqrt(0.5 * (corners(pair.shape_a()) + corners(pair.shape_b())));
 }
 
+Vec3d portal_normal(const std::array<Vec3d, 3>& places) {
+  const Vec3d cross = (places[1] - places[0]).cross(places[2] - places[0]);
+  const double length = cross.norm();
+  return length > 0 ? Vec3d(cross / length) : Vec3d::Zero();
+}
+
 PathEnd meet_portal(MovingPair& pair, const Vec3d& along, const std::array<Vec3d, 3>& places,
                     double tolerance, PathContact& found) {
-  if (!(pair.time() > 0)) return PathEnd::open;
   const double weights[3] = {side(places[1], places[2], along), side(places[2], places[0], along),
                              side(places[0], places[1], along)};
   const double sum = weights[0] + weights[1] + weights[2];
@@ -71,6 +76,7 @@ PathEnd meet_portal(MovingPair& pair, const Vec3d& along, const std::array<Vec3d
   pair.move_to(pair.time(), found.simplex);
   found.nearest = {};
   found.nearest.distance = weighted_mean(found.simplex).difference.norm();
+  found.nearest.direction = -portal_normal(places);
   return found.nearest.distance <= tolerance ? PathEnd::hit : PathEnd::open;
 }
 

@@ -11,8 +11,10 @@ struct ContactLanes {
   alignas(64) double time[width]{}, tolerance[width]{}, inner[width]{};
 };
 
-TOUCHSTONE_TARGET inline void load_contact(const PortalQuery& query, const PortalAnswer& answer,
+TOUCHSTONE_TARGET inline void load_contact(const PortalQuery& query, PortalAnswer& answer,
                                            std::size_t lane, ContactLanes& to) {
+  // Bodies that touch at time 0 were parted by no plane, and touch along the portal's.
+  if (!(answer.time > 0)) answer.plane = portal_normal(answer.places);
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t corner = 0; corner < 3; ++corner)
       to.places[corner][k][lane] = answer.places[corner].data()[k];
@@ -82,7 +84,7 @@ TOUCHSTONE_TARGET inline void prove_contacts(std::span<const PortalQuery> querie
                                              std::span<PortalAnswer> answers) {
   ContactLanes lanes;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (answers[i].end != PortalEnd::closed || !(answers[i].time > 0)) continue;
+    if (answers[i].end != PortalEnd::closed) continue;
     lanes.query[lanes.count] = i;
     load_contact(queries[i], answers[i], lanes.count, lanes);
     if (++lanes.count < ContactLanes::width) continue;

@@ -68,13 +68,14 @@ std::optional<double> contact_by(MovingPair& pair, const PathContact& found, con
                                  int& iterations) {
   constexpr int most_tries = 7;
   constexpr double growth = 16;
-  const double begin = pair.time();
-  if (!(begin > 0) && contact_is_proven(pair, found.simplex, 0, iterations)) return 0;
+  const double begin = pair.time(), speed = -normal.dot(pair.velocity());
+  // Bodies that touch along a plane and go in through it overlap soon, and hardly do so yet.
+  if (!(begin > 0) && !(speed > 0) && contact_is_proven(pair, found.simplex, 0, iterations))
+    return 0;
   const double depth =
       found.nearest.inside ? 0.0 : std::max(found.nearest.distance - pair.radius(), 0.0);
   // First to where they are so deep along the plane that rounding does not hide it.
   const double least = depth + 256 * MovingPair::rounding;
-  const double speed = -normal.dot(pair.velocity());
   double step = speed > 0 ? least / speed : least;
   for (int k = 0; k < most_tries; ++k, step *= growth) {
     const double time = std::min(begin + step, 1.0);
