@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "algorithms/concave_phase.h"
-#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/oracle/certificates/parts/part_pair_check.h"
 #include "algorithms/oracle/concave/group_plane.h"
 #include "algorithms/oracle/concave/inside.h"
+#include "algorithms/oracle/concave/rounded_part.h"
 #include "algorithms/oracle/oracle.h"
 
 namespace touchstone::entries {
@@ -42,10 +42,7 @@ struct ProvenBody {
         order(spatial_order(parts.boxes())),
         tree(order, parts.boxes()) {}
 
-  Body rounded(std::uint32_t part) const {
-    const Pose at = given.mesh ? pose : composed(pose, given.parts[part].pose, 1).pose;
-    return {parts.solid(part), at};
-  }
+  Body rounded(std::uint32_t part) const { return rounded_part(parts, given, pose, part); }
 };
 
 class Walk {
@@ -109,7 +106,6 @@ class Walk {
     Certificate found;
     double upper = HUGE_VAL;
     const Body rounded_a = a_.rounded(i), rounded_b = b_.rounded(j);
-    // Products of poses may be beyond doubles.
     if (rounded_a.is_finite() && rounded_b.is_finite()) {
       upper = oracle_.prove(rounded_a, rounded_b, found).upper;
     }

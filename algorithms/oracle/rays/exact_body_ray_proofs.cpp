@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/oracle/certificates/parts/triangle_tests.h"
 #include "algorithms/oracle/concave/group_plane.h"
+#include "algorithms/oracle/concave/rounded_part.h"
 #include "algorithms/scene_ray_cast.h"
 
 namespace touchstone::entries {
@@ -69,10 +69,6 @@ BodyRayProver::BodyRayProver(const ConcaveBody& body, const Pose& pose)
 }
 
 BodyRayProver::~BodyRayProver() = default;
-
-Body BodyRayProver::rounded(std::uint32_t part) const {
-  return {parts_.solid(part), body_.mesh ? pose_ : composed(pose_, body_.parts[part].pose, 1).pose};
-}
 
 std::optional<BodyRayCertificate> BodyRayProver::prove(const Vec3d& origin, const Vec3d& direction,
                                                        double t_max, bool is_first) {
@@ -135,7 +131,8 @@ bool BodyRayProver::write_upper(const RaySpan& ray, double t, BodyRayCertificate
     const Solid& solid = parts_.solid(part);
     if (solid.core == Solid::Core::polytope && solid.vertices.size() > 3 && !solid.is_box) {
       Certificate found;
-      const Body a(point, Pose{Mat3d::Identity(), rounded_vector(at)}), b = rounded(part);
+      const Body a(point, Pose{Mat3d::Identity(), rounded_vector(at)}),
+          b = rounded_part(parts_, body_, pose_, part);
       if (!a.is_finite() || !b.is_finite()) continue;
       oracle_.prove(a, b, found);
       certificate.generators = found.b;
@@ -229,7 +226,7 @@ bool BodyRayProver::part_is_free(const RaySpan& span, std::uint32_t part, Steps&
   shape.hull = std::make_shared<const Hull>(std::move(hull));
   const Solid segment(shape);
   Certificate found;
-  const Body body = rounded(part);
+  const Body body = rounded_part(parts_, body_, pose_, part);
   if (!body.is_finite()) return false;
   oracle_.prove(Body(segment, Pose{}), body, found);
   const auto parted = parting(found.direction, span, is_parted);

@@ -30,7 +30,6 @@ class BodyRayProver {
   using Steps = std::vector<BodyRayCertificate::Step>;
   struct Solver;
 
-  Body rounded(std::uint32_t part) const;
   mpq_class exact_time(const RaySpan& ray, std::uint32_t part, double t) const;
   bool write_upper(const RaySpan& ray, double t, BodyRayCertificate& certificate);
   void write_lower(const RaySpan& ray, double t, bool tries_upper, BodyRayCertificate& certificate);
