@@ -163,7 +163,7 @@ std::string fault(const CastCertificate& certificate, const MovingBody& a, const
     pair.require_contact(certificate, upper);
     if (!certificate.feature.empty()) pair.require_exact(certificate, lower, upper);
   } catch (const Fault& found) {
-    return found.reason;
+    return found.what();
   }
   return {};
 }

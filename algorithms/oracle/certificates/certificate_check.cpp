@@ -61,7 +61,7 @@ std::string fault(const Certificate& certificate, const Body& a, const Body& b) 
     require(certificate.answer == answer_of(lower, upper, radius_a + radius_b),
             "the answer does not follow from the bounds");
   } catch (const Fault& found) {
-    return found.reason;
+    return found.what();
   }
   return {};
 }

@@ -6,15 +6,15 @@
 
 #include <array>
 #include <compare>
-#include <string>
+#include <stdexcept>
 
 #include "algorithms/oracle/certificates/certificate.h"
 
 namespace touchstone::oracle {
 
 // Thrown if a certificate, or a body that it names, is invalid.
-struct Fault {
-  std::string reason;
+struct Fault : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 void require(bool holds, const char* otherwise);
 

@@ -82,7 +82,7 @@ CheckedBody::CheckedBody(const PlacedBody& body) {
     parts_.emplace(body.body, body.pose);
     require(!parts_->is_rounded(), "the places of parts are rounded, so that nothing is proven");
   } catch (const Fault& found) {
-    invalid_ = found.reason;
+    invalid_ = found.what();
   }
 }
 
@@ -91,7 +91,7 @@ std::string CheckedBody::fault(const BodyRayCertificate& certificate) const {
   try {
     require_proven(certificate);
   } catch (const Fault& found) {
-    return found.reason;
+    return found.what();
   }
   return {};
 }

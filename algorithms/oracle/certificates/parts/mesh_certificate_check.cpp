@@ -64,7 +64,7 @@ std::string reason(const Require& check) {
   try {
     check();
   } catch (const Fault& found) {
-    return found.reason;
+    return found.what();
   }
   return {};
 }

@@ -182,7 +182,7 @@ std::string fault(const PartsCertificate& certificate, const PlacedBody& a, cons
   try {
     CheckedParts(certificate, a, b).require_proven();
   } catch (const Fault& found) {
-    return found.reason;
+    return found.what();
   }
   return {};
 }
