@@ -102,9 +102,12 @@ void save_cast_proofs(const std::vector<files::CastCase>& cases, const CastOptio
     if (offers(exact, c.shape_a.kind, c.shape_b.kind, process::turns(c))) taken.push_back(i);
   }
   SavedCertificates saved(options.saved);
-  for (const std::size_t i : taken) {
-    saved.add(files::to_json(process::prove_cast(cases[i], options.settings.tolerance)));
-  }
+  const auto prove = [&](std::size_t item) {
+    return files::to_json(process::prove_cast(cases[taken[item]], options.settings.tolerance));
+  };
+  saved.add_each(
+      taken.size(), options.time_limit, [&] { return prove; },
+      [&](std::size_t item) { return fmt::format("case '{}'", cases[taken[item]].id); });
   saved.close();
 }
 
@@ -171,7 +174,8 @@ void add_cast(Arguments command) {
       .one_of("--start", settings.start, starts,
               "Whether contact at time 0 counts always, or only where the bodies approach")
       .show_default("counts");
-  add_time_limit(command, options->time_limit).show_default();
+  add_time_limit(command, options->time_limit, "Seconds that a query may take, and its proof")
+      .show_default();
   command.text("--out", options->out, "The CSV file to write (required)");
   command.text(
       "--save-certificates", options->saved,

@@ -1,6 +1,8 @@
 // Saves and verifies certificates of pairs of bodies.
 #include "harness/commands/query/parts_proofs.h"
 
+#include <fmt/format.h>
+
 #include "algorithms/oracle/certificates/parts/parts_certificate_check.h"
 #include "algorithms/oracle/concave/exact_parts_proofs.h"
 #include "harness/commands/query/proofs.h"
@@ -22,13 +24,16 @@ PartsCertificate::Claim claim_of(ConcaveTask task) {
 }  // namespace
 
 void save_parts_proofs(const std::string& file, ConcaveTask task,
-                       const std::vector<files::ConcaveCase>& cases) {
+                       const std::vector<files::ConcaveCase>& cases, double seconds) {
   SavedCertificates saved(file);
-  for (const files::ConcaveCase& c : cases) {
-    const files::StoredPartsCertificate stored{
-        c, oracle::prove_parts(claim_of(task), c.a, c.pose_a, c.b, c.pose_b)};
-    saved.add(files::to_json(stored));
-  }
+  const auto prove = [&](std::size_t item) {
+    const files::ConcaveCase& c = cases[item];
+    return files::to_json(files::StoredPartsCertificate{
+        c, oracle::prove_parts(claim_of(task), c.a, c.pose_a, c.b, c.pose_b)});
+  };
+  saved.add_each(
+      cases.size(), seconds, [&] { return prove; },
+      [&](std::size_t item) { return fmt::format("case '{}'", cases[item].id); });
   saved.close();
 }
 

@@ -9,10 +9,10 @@
 
 namespace touchstone::commands {
 
-// Proves the exact answer of each case, writes one certificate a line, and prints how many. Throws InputError if the
-// file cannot be written.
+// Proves the exact answer of each case, writes one certificate a line, and prints how many, and which cases have none
+// because that took more than so many seconds. Throws InputError if the file cannot be written.
 void save_parts_proofs(const std::string& file, ConcaveTask task,
-                       const std::vector<files::ConcaveCase>& cases);
+                       const std::vector<files::ConcaveCase>& cases, double seconds);
 
 // Returns the program's exit status; prints what is refused and why.
 int verify_parts_proofs(const std::string& file);

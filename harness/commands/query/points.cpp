@@ -123,12 +123,17 @@ void save_point_proofs(const TriangleMesh& mesh, const std::vector<Vec3d>& point
                        const PointsOptions& options) {
   SavedCertificates saved(options.saved);
   saved.head(files::mesh_line(mesh));
-  oracle::MeshProver prover(mesh);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto certificate = options.task == PointTask::side ? prover.prove_side(points[i])
-                                                             : prover.prove_nearest(points[i]);
-    if (certificate) saved.add(files::to_json(files::StoredPointCertificate{i, *certificate}));
-  }
+  const auto setup = [&] {
+    return [&, prover = std::make_shared<oracle::MeshProver>(mesh)](
+               std::size_t i) -> std::optional<std::string> {
+      const auto certificate = options.task == PointTask::side ? prover->prove_side(points[i])
+                                                               : prover->prove_nearest(points[i]);
+      if (!certificate) return {};
+      return files::to_json(files::StoredPointCertificate{i, *certificate});
+    };
+  };
+  saved.add_each(points.size(), options.time_limit, setup,
+                 [](std::size_t i) { return fmt::format("point {}", i); });
   saved.close();
 }
 
@@ -183,7 +188,8 @@ void add_points(Arguments command) {
       .one_of("--task", options->task, tasks,
               "The closest point, or the side of the surface, which has to be closed")
       .show_default("closest");
-  add_time_limit(command, options->time_limit, "Seconds that a point may take").show_default();
+  add_time_limit(command, options->time_limit, "Seconds that a point may take, and its proof")
+      .show_default();
   command.text("--out", options->out, "The CSV file to write (required)");
   command.text("--save-certificates", options->saved,
                "Also prove the exact answer for each point, and write the proofs to this file");

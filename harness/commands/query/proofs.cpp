@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "harness/base/error.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 
 namespace touchstone::commands {
 namespace {
@@ -18,9 +21,17 @@ SavedCertificates::SavedCertificates(const std::string& file)
 
 void SavedCertificates::head(const std::string& line) { stream_ << line << '\n'; }
 
-void SavedCertificates::add(const std::string& line) {
-  stream_ << line << '\n';
-  ++count_;
+void SavedCertificates::add_each(std::size_t items, double seconds,
+                                 const std::function<process::MakeLine()>& setup,
+                                 const std::function<std::string(std::size_t)>& name_of) {
+  const process::IsolationLimits limits = {
+      .item_seconds = seconds, .setup_seconds = std::numeric_limits<double>::infinity()};
+  const process::LinesReport report = process::isolated_lines(items, limits, setup, stream_);
+  count_ += report.lines;
+  if (!report.failures.empty() && report.failures.back().in_setup) {
+    throw base::InputError(file_, 0, "nothing can be proven: " + report.failures.back().reason());
+  }
+  print_failures("certificates", report.failures, name_of);
 }
 
 void SavedCertificates::close() {

@@ -1,9 +1,13 @@
 // What the commands that save and verify certificates share.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <string>
+
+#include "harness/process/isolated_lines.h"
 
 namespace touchstone::commands {
 
@@ -14,7 +18,11 @@ class SavedCertificates {
 
   // A line that is no certificate, such as one that others refer to.
   void head(const std::string& line);
-  void add(const std::string& line);
+  // Adds a certificate for each item, one after the other, in a child process; `setup` is not bounded in time, and an
+  // item without a proof within `seconds` is left out. Prints which were; `name_of` names an item. Throws
+  // InputError if the setup fails.
+  void add_each(std::size_t items, double seconds, const std::function<process::MakeLine()>& setup,
+                const std::function<std::string(std::size_t)>& name_of);
   // Prints how many there are. Throws InputError if the file cannot be written.
   void close();
 

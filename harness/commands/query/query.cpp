@@ -224,7 +224,8 @@ void query(QueryOptions& options, const HeededBySome& heeded) {
   const std::vector<files::ConcaveCase> cases = asked_cases(options);
   check_saved(options);
   query(options, heeded, cases);
-  if (!options.saved.empty()) save_parts_proofs(options.saved, *options.asked.of_concave, cases);
+  if (options.saved.empty()) return;
+  save_parts_proofs(options.saved, *options.asked.of_concave, cases, options.time_limit);
 }
 
 }  // namespace
@@ -265,7 +266,8 @@ void add_query(Arguments command) {
               "Greatest number of iterations of each loop of a query; in concave phases, of a pair "
               "of convex parts, by --parts other than certified, which has none")
       .positive();
-  add_time_limit(command, options->time_limit).show_default();
+  add_time_limit(command, options->time_limit, "Seconds that a query may take, and its proof")
+      .show_default();
   command.text("--out", options->out, "The CSV file to write (required)");
   command.text("--pairs", options->pairs,
                "With --task contacts: the CSV file of the pairs of parts that share a point");

@@ -51,8 +51,7 @@ Cast ask(const RayCastEntry& entry, const TriangleMesh& mesh, const std::vector<
         };
       });
   cast.hits = std::move(solved.answers);
-  print_failures(entry.info.name, solved.failures,
-                 [](std::size_t item) { return fmt::format("ray {}", item); });
+  print_failures(entry.info.name, solved.failures, name_of_ray);
   return cast;
 }
 
@@ -77,14 +76,18 @@ void save_ray_proofs(TriangleMesh mesh, const std::vector<Ray>& rays, const Rays
   for (Vec3d& vertex : mesh.vertices) vertex = rounded(vertex);
   SavedCertificates saved(options.saved);
   saved.head(files::mesh_line(mesh));
-  oracle::MeshProver prover(mesh);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    Ray ray = {rounded(rays[i].origin), rounded(rays[i].direction), rays[i].t_max};
-    if (options.settings.scalar == Precision::float32) ray.t_max = nearest_float(ray.t_max);
-    const auto certificate =
-        prover.prove_ray(ray.origin, ray.direction, ray.t_max, options.task == RayTask::closest);
-    if (certificate) saved.add(files::to_json(files::StoredRayCertificate{i, *certificate}));
-  }
+  const auto setup = [&] {
+    return [&, prover = std::make_shared<oracle::MeshProver>(mesh)](
+               std::size_t i) -> std::optional<std::string> {
+      Ray ray = {rounded(rays[i].origin), rounded(rays[i].direction), rays[i].t_max};
+      if (options.settings.scalar == Precision::float32) ray.t_max = nearest_float(ray.t_max);
+      const auto certificate =
+          prover->prove_ray(ray.origin, ray.direction, ray.t_max, options.task == RayTask::closest);
+      if (!certificate) return {};
+      return files::to_json(files::StoredRayCertificate{i, *certificate});
+    };
+  };
+  saved.add_each(rays.size(), options.time_limit, setup, name_of_ray);
   saved.close();
 }
 
@@ -169,7 +172,8 @@ void add_rays(Arguments command) {
   command.one_of("--scalar", options->settings.scalar, scalar_choices(), "What the input is")
       .show_default("double");
   command.number("--frame", options->frame, "Which frame of a scene").show_default();
-  add_time_limit(command, options->time_limit, "Seconds that a ray may take").show_default();
+  add_time_limit(command, options->time_limit, "Seconds that a ray may take, and its proof")
+      .show_default();
   command.text("--out", options->out, "The CSV file to write (required)");
   command.text(
       "--save-certificates", options->saved,

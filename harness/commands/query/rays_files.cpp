@@ -35,6 +35,8 @@ std::vector<Ray> read_rays(const std::string& file) {
   return rays;
 }
 
+std::string name_of_ray(std::size_t ray) { return fmt::format("ray {}", ray); }
+
 void print_summaries(const std::vector<RaysSummary>& summaries) {
   fmt::print("{:<24} {:>9} {:>9}  {}\n", "algorithm", "hits", "misses", "status");
   for (const RaysSummary& summary : summaries) {

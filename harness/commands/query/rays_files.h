@@ -24,6 +24,9 @@ struct RaysOptions {
 // Throws InputError with file, line and what was expected.
 std::vector<Ray> read_rays(const std::string& file);
 
+// What failures of a ray are told with.
+std::string name_of_ray(std::size_t ray);
+
 // The number of an algorithm's hits and of each status.
 struct RaysSummary {
   std::string name;

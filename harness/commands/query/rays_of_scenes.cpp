@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "algorithms/oracle/rays/exact_body_ray_proofs.h"
@@ -65,8 +67,7 @@ SceneCast ask_at_scene(const SceneRayCastEntry& entry, const std::vector<SceneBo
           return hit;
         };
       });
-  print_failures(entry.info.name, solved.failures,
-                 [](std::size_t item) { return fmt::format("ray {}", item); });
+  print_failures(entry.info.name, solved.failures, name_of_ray);
   return {&entry, std::move(solved.answers)};
 }
 
@@ -106,12 +107,16 @@ void save_body_ray_proofs(const SceneBody& body, const std::vector<Ray>& rays,
                           const RaysOptions& options) {
   SavedCertificates saved(options.saved);
   saved.head(files::body_line(body.body, body.pose));
-  oracle::BodyRayProver prover(body.body, body.pose);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto certificate = prover.prove(rays[i].origin, rays[i].direction, rays[i].t_max,
-                                          options.task == RayTask::closest);
-    if (certificate) saved.add(files::to_json(files::StoredBodyRayCertificate{i, *certificate}));
-  }
+  const auto setup = [&] {
+    return [&, prover = std::make_shared<oracle::BodyRayProver>(body.body, body.pose)](
+               std::size_t i) -> std::optional<std::string> {
+      const auto certificate = prover->prove(rays[i].origin, rays[i].direction, rays[i].t_max,
+                                             options.task == RayTask::closest);
+      if (!certificate) return {};
+      return files::to_json(files::StoredBodyRayCertificate{i, *certificate});
+    };
+  };
+  saved.add_each(rays.size(), options.time_limit, setup, name_of_ray);
   saved.close();
 }
 

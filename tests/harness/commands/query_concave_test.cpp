@@ -1,4 +1,5 @@
 // Tests of touchstone query with meshes and compounds.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,6 +70,32 @@ TEST_F(ConcaveQueryCommand, CertificatesAreSavedAndVerified) {
   EXPECT_EQ(run_program("query --certificates " + proofs + " --narrow fused").status, 2);
   EXPECT_THAT(run_program("query in.jsonl --narrow fused").text,
               HasSubstr("--task is missing; expected it, or --certificates alone"));
+}
+
+// Exact distances take very long where every triangle may be the nearest one to rounding.
+TEST_F(ConcaveQueryCommand, CertificatesThatTakeTooLongAreLeftOut) {
+  std::string vertices, triangles;
+  constexpr int side = 20;
+  for (int i = 0; i <= side * side; ++i) {
+    vertices += fmt::format("{}[{},{},{}]", i > 0 ? "," : "", i % side, i / side, i % 7);
+    if (i > 1) triangles += fmt::format("{}[{},{},{}]", i > 2 ? "," : "", i - 2, i - 1, i);
+  }
+  const std::string surface =
+      R"("shape":{"type":"mesh","vertices":[)" + vertices + R"(],"triangles":[)" + triangles + "]}";
+  const std::string ball = R"("shape":{"type":"sphere","radius":1})";
+  const auto apart = [](const std::string& id, const std::string& shape, const std::string& x) {
+    return R"({"id":")" + id + R"(","a":{)" + shape + R"(},"b":{)" + shape + R"(,"translation":[)" +
+           x + ",0,0]}}\n";
+  };
+  const std::string proofs = (folder.path() / "proofs.jsonl").string();
+  const Ran saved =
+      run("--narrow fused --task distance --time-limit 1 --save-certificates " + proofs,
+          apart("first", ball, "3") + apart("huge", surface, "1e300") + apart("last", ball, "4"));
+  EXPECT_EQ(saved.status, 0) << saved.text;
+  EXPECT_THAT(saved.text, HasSubstr("certificates, case 'huge': no answer in time"));
+  EXPECT_THAT(saved.text, HasSubstr("2 certificates in"));
+  EXPECT_THAT(run_program("query --certificates " + proofs).text,
+              HasSubstr("2 certificates verified, 0 refused"));
 }
 
 // Convex cases have them too, but not for a depth.
