@@ -40,7 +40,9 @@ void add_soak(Arguments command) {
   check::SoakRequest& request = options->request;
   add_case_options(command, request, options->selection.narrow, options->out, "soak", "soak");
   add_selection(command, options->selection);
-  command.number("--pairs", request.pairs, "Cases in all, spread over the regimes and families")
+  command
+      .number("--pairs", request.pairs,
+              "Cases in all, spread over the regimes and families, a thousand of one at a time")
       .within(1, 1'000'000'000'000)
       .show_default();
   command.job([options] { return soak(*options); });

@@ -140,7 +140,8 @@ std::string family_summary(const CheckRequest& request, const FamilyCounts& coun
   std::string text;
   for (const CaseKind kind : all_case_kinds) {
     if (!has_kind(request, kind)) continue;
-    text += fmt::format("\n{}\n{}", title(kind), sums(request, counts, kind).text(page_width));
+    const base::Table table = sums(request, counts, kind);
+    if (!table.is_empty()) text += fmt::format("\n{}\n{}", title(kind), table.text(page_width));
   }
   return text;
 }

@@ -32,6 +32,14 @@ std::string soak_text(const SoakRequest& request, const SoakResult& result,
   }
   std::string text = request.narrow.empty() ? "" : table.text(page_width);
   text += family_summary(request, result.families, page_width);
+  const auto all = static_cast<std::int64_t>(request.period());
+  const std::int64_t asked = result.drawn / cases_a_soak_job;
+  if (asked < all && !result.interrupted) {
+    text += fmt::format(
+        "\nOnly the first {} of {} regimes and families were asked, each {} cases; --pairs {} asks "
+        "all.\n",
+        asked, all, cases_a_soak_job, all * cases_a_soak_job);
+  }
   for (const std::string& line : broken_family_promises(request, result.failures)) {
     text += "Wrong: " + line + '\n';
   }

@@ -11,6 +11,7 @@
 #include "harness/check/kinds/case_block.h"
 #include "harness/check/requests/select_cases.h"
 #include "harness/check/soak/soak.h"
+#include "harness/check/soak/soak_text.h"
 #include "harness/files/concave/concave_cases.h"
 #include "harness/files/motion/ccd_queries.h"
 #include "harness/geometry/mesh.h"
@@ -30,6 +31,7 @@ using check::FamilyCount;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 // A family of each kind, in which both outcomes are common.
 std::vector<const check::CaseFamily*> some_families() {
@@ -187,6 +189,18 @@ TEST_F(FamilyCheck, SoaksCountThousandsOfThem) {
     EXPECT_GT(count.right, 0);
   }
   EXPECT_TRUE(result.ours_are_wrong(request));
+  EXPECT_THAT(check::soak_text(request, result, 120), Not(HasSubstr("Only the first")));
+}
+
+TEST_F(FamilyCheck, SoaksThatAreTooSmallSaySo) {
+  const PlantedKinds<Habit::no> planted;
+  auto request = request_for<check::SoakRequest>(planted.contestants());
+  request.pairs = 500;
+  const std::string text = check::soak_text(request, check::run_soak(request), 120);
+  EXPECT_THAT(text, HasSubstr("Only the first 1 of 6 regimes and families were asked, each 1000 "
+                              "cases; --pairs 6000 asks all."));
+  EXPECT_THAT(text, HasSubstr("Bodies that need not be convex"));
+  EXPECT_THAT(text, Not(HasSubstr("Points")));
 }
 
 TEST(CaseFamilies, TheExactAnswersAgreeInEveryForm) {
