@@ -73,7 +73,7 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around, ConcaveBody&
       continue;
     }
     ConvexPart& part = body.parts.emplace_back();
-    read_body(node, part.shape, part.pose, ", compound");
+    read_body(node, part.shape, part.pose, ", mesh, compound");
     geometry::place_within(around, part);
   }
 }

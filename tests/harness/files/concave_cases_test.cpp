@@ -172,6 +172,8 @@ TEST_F(ConcaveCases, Faults) {
   EXPECT_THAT(error(R"({"type":"mesh","vertices":[],"triangles":[[0,0,0]]})"),
               HasSubstr("expected no triangle"));
   EXPECT_THAT(error(R"({"type":"compound"})"), HasSubstr("no \"parts\""));
+  EXPECT_THAT(error(R"({"type":"compound","parts":[{"shape":{"type":"blob"}}]})"),
+              HasSubstr("halfspace, mesh, compound"));
   EXPECT_THAT(error(R"({"type":"compound","parts":[{"translation":[0,0,0]}]})"),
               HasSubstr("a.shape.parts[0]: no \"shape\""));
   EXPECT_THAT(
