@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "algorithms/core/nearest_float.h"
-#include "algorithms/oracle/certificates/parts/body_ray_check.h"
 #include "algorithms/oracle/certificates/parts/mesh_certificate_check.h"
+#include "algorithms/oracle/certificates/parts/scene_ray_check.h"
 #include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
@@ -95,23 +95,24 @@ int verify_ray_proofs(const std::string& file) {
   Verdicts verdicts(file);
   const auto name = [](const auto& stored) { return fmt::format("ray {}", stored.ray); };
   std::optional<oracle::CheckedMesh> mesh;
-  ConcaveBody body;
-  std::optional<oracle::CheckedBody> checked;
+  std::vector<files::PlacedConcave> bodies;
+  std::optional<oracle::CheckedScene> scene;
   files::read_ray_certificates(
       file, {.mesh = [&](const TriangleMesh& read) { mesh.emplace(read); },
              .at_mesh =
                  [&](const files::StoredRayCertificate& stored, std::int64_t line) {
                    verdicts.add(line, name(stored), mesh->fault(stored.certificate));
                  },
-             .body =
-                 [&](const ConcaveBody& read, const Pose& pose) {
-                   checked.reset();
-                   body = read;
-                   checked.emplace(oracle::PlacedBody{body, pose});
+             .scene =
+                 [&](std::vector<files::PlacedConcave> read) {
+                   bodies = std::move(read);
+                   std::vector<oracle::PlacedBody> placed;
+                   for (const auto& [body, pose] : bodies) placed.push_back({body, pose});
+                   scene.emplace(std::move(placed));
                  },
-             .at_body =
-                 [&](const files::StoredBodyRayCertificate& stored, std::int64_t line) {
-                   verdicts.add(line, name(stored), checked->fault(stored.certificate));
+             .at_scene =
+                 [&](const files::StoredSceneRayCertificate& stored, std::int64_t line) {
+                   verdicts.add(line, name(stored), scene->fault(stored.certificate));
                  }});
   return verdicts.end();
 }
@@ -175,10 +176,8 @@ void add_rays(Arguments command) {
   add_time_limit(command, options->time_limit, "Seconds that a ray may take, and its proof")
       .show_default();
   command.text("--out", options->out, "The CSV file to write (required)");
-  command.text(
-      "--save-certificates", options->saved,
-      "Also prove the exact answer for each ray, and write the proofs to this file; a scene "
-      "has to be of one body");
+  command.text("--save-certificates", options->saved,
+               "Also prove the exact answer for each ray, and write the proofs to this file");
   command.text("--certificates", options->certificates, "Only verify the proofs in this file");
   command.exclude_others("--certificates");
   command.job([options]() -> int {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "algorithms/oracle/rays/exact_body_ray_proofs.h"
+#include "algorithms/oracle/rays/exact_scene_ray_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/campaign/selection.h"
@@ -16,7 +16,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
-#include "harness/files/proofs/body_ray_certificates.h"
+#include "harness/files/proofs/scene_ray_certificates.h"
 #include "harness/process/isolate.h"
 #include "harness/scene/player.h"
 
@@ -94,26 +94,24 @@ void write_scene_row(files::CsvWriter& csv, const std::vector<SceneBody>& bodies
   csv.end_row();
 }
 
-// The one body of the scene whose rays can be proven.
-const SceneBody& only_body(const std::vector<SceneBody>& bodies, const RaysOptions& options) {
-  if (bodies.size() == 1) return bodies[0];
-  throw base::InputError(
-      fmt::format("--save-certificates: {} has {} bodies; expected a mesh, or a scene of one body",
-                  options.target, bodies.size()));
-}
-
 // Proves the exact answer for each ray.
-void save_body_ray_proofs(const SceneBody& body, const std::vector<Ray>& rays,
-                          const RaysOptions& options) {
+void save_scene_ray_proofs(const std::vector<SceneBody>& bodies, const std::vector<Ray>& rays,
+                           const RaysOptions& options) {
+  std::vector<files::PlacedConcave> named;
+  std::vector<oracle::PlacedBody> placed;
+  for (const auto& [body, pose] : bodies) {
+    named.push_back({body, pose});
+    placed.push_back({body, pose});
+  }
   SavedCertificates saved(options.saved);
-  saved.head(files::body_line(body.body, body.pose));
+  saved.head(files::scene_line(named));
   const auto setup = [&] {
-    return [&, prover = std::make_shared<oracle::BodyRayProver>(body.body, body.pose)](
+    return [&, prover = std::make_shared<oracle::SceneRayProver>(placed)](
                std::size_t i) -> std::optional<std::string> {
       const auto certificate = prover->prove(rays[i].origin, rays[i].direction, rays[i].t_max,
                                              options.task == RayTask::closest);
       if (!certificate) return {};
-      return files::to_json(files::StoredBodyRayCertificate{i, *certificate});
+      return files::to_json(files::StoredSceneRayCertificate{i, *certificate});
     };
   };
   saved.add_each(rays.size(), options.time_limit, setup, name_of_ray);
@@ -139,7 +137,6 @@ void cast_rays_at_scene(const RaysOptions& options) {
   inputs.push_back({"--rays", options.rays});
   files::check_outputs(inputs, std::vector<files::NamedFile>{
                                    {"--out", options.out}, {"--save-certificates", options.saved}});
-  const SceneBody* const proven = options.saved.empty() ? nullptr : &only_body(bodies, options);
   std::vector<SceneCast> casts;
   casts.reserve(entries.size());
   for (const SceneRayCastEntry* entry : entries)
@@ -157,7 +154,7 @@ void cast_rays_at_scene(const RaysOptions& options) {
     for (const SceneRayHit& hit : cast.hits) summary.add(hit.hit, hit.status);
   }
   print_summaries(summaries);
-  if (proven != nullptr) save_body_ray_proofs(*proven, rays, options);
+  if (!options.saved.empty()) save_scene_ray_proofs(bodies, rays, options);
 }
 
 }  // namespace touchstone::commands

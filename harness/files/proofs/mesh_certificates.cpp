@@ -146,24 +146,22 @@ std::string to_json(const StoredPointCertificate& stored) {
 }
 
 void read_ray_certificates(const std::filesystem::path& file, const RayTargets& targets) {
-  enum class Target : std::uint8_t { none, mesh, body } target = Target::none;
+  enum class Target : std::uint8_t { none, mesh, scene } target = Target::none;
   for_each_json_line(file, "certificate", [&](const JsonNode& line) {
-    line.as_object("a certificate, or an object with \"mesh\" or \"body\"");
+    line.as_object("a certificate, or an object with \"mesh\" or \"bodies\"");
     if (line.has("mesh")) {
       targets.mesh(*read_mesh_alone(line.at("mesh", "a mesh")));
       target = Target::mesh;
-    } else if (line.has("body")) {
-      Pose pose;
-      const ConcaveBody body = read_concave_body(line.at("body", "a body"), pose);
-      targets.body(body, pose);
-      target = Target::body;
+    } else if (line.has("bodies")) {
+      targets.scene(read_scene_line(line));
+      target = Target::scene;
     } else if (target == Target::mesh) {
       targets.at_mesh(read_ray(line), line.line());
-    } else if (target == Target::body) {
-      targets.at_body(read_body_ray(line), line.line());
+    } else if (target == Target::scene) {
+      targets.at_scene(read_scene_ray(line), line.line());
     } else {
       line.fail(
-          "a certificate before any mesh or body; expected an object with \"mesh\" or \"body\"");
+          "a certificate before any mesh or scene; expected an object with \"mesh\" or \"bodies\"");
     }
   });
 }

@@ -14,10 +14,11 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "algorithms/core/mesh/triangle_mesh.h"
 #include "algorithms/oracle/certificates/parts/mesh_certificates.h"
-#include "harness/files/proofs/body_ray_certificates.h"
+#include "harness/files/proofs/scene_ray_certificates.h"
 
 namespace touchstone::files {
 
@@ -36,16 +37,16 @@ std::string mesh_line(const TriangleMesh& mesh);
 std::string to_json(const StoredRayCertificate& certificate);
 std::string to_json(const StoredPointCertificate& certificate);
 
-// What is done with each mesh and body in a file, and with each certificate of a ray at the one before it.
+// What is done with each mesh and scene in a file, and with each certificate of a ray at the one before it.
 struct RayTargets {
   std::function<void(const TriangleMesh&)> mesh;
   std::function<void(const StoredRayCertificate&, std::int64_t line)> at_mesh;
-  std::function<void(const ConcaveBody&, const Pose&)> body;
-  std::function<void(const StoredBodyRayCertificate&, std::int64_t line)> at_body;
+  std::function<void(std::vector<PlacedConcave>)> scene;
+  std::function<void(const StoredSceneRayCertificate&, std::int64_t line)> at_scene;
 };
 
 // Call these, in order. Throw InputError with file, line, key and the expected value for what is malformed, and for a
-// certificate before any mesh or body; certificates before that were valid. They do not check whether a certificate
+// certificate before any mesh or scene; certificates before that were valid. They do not check whether a certificate
 // proves anything.
 void read_ray_certificates(const std::filesystem::path& file, const RayTargets& targets);
 void read_point_certificates(

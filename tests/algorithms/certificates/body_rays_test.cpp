@@ -3,40 +3,24 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "algorithms/oracle/certificates/parts/body_ray_check.h"
-#include "algorithms/oracle/rays/exact_body_ray_proofs.h"
 #include "harness/families/aimed_rays.h"
-#include "tests/algorithms/certificates/bodies.h"
+#include "tests/algorithms/certificates/scene_rays.h"
 
 namespace touchstone {
 namespace {
 
-using oracle::BodyRayCertificate;
-using oracle::BodyRayProver;
-using oracle::CheckedBody;
+using oracle::CheckedScene;
+using oracle::SceneRayCertificate;
+using oracle::SceneRayProver;
 using reference::body_of;
 using reference::moved_by;
-using RayKind = BodyRayCertificate::Step::Kind;
-
-constexpr double no_end = std::numeric_limits<double>::infinity();
-
-double value_of(const oracle::TimeFraction& t) {
-  return mpq_class(oracle::rational(t.numerator) / oracle::rational(t.denominator)).get_d();
-}
-
-SceneRayHit solved(const ConcaveBody& body, const Pose& pose, const BodyRayCertificate& of) {
-  const auto cast = find_scene_ray_cast("exact")->make();
-  const std::vector<SceneBody> bodies = {{body, pose}};
-  cast->bind(bodies);
-  const Ray ray{of.origin, of.direction, of.t_max};
-  SceneRayHit hit;
-  cast->cast(of.is_first ? RayTask::closest : RayTask::any, {&ray, 1}, {&hit, 1});
-  return hit;
-}
+using reference::no_end;
+using reference::solved;
+using reference::value_of;
+using RayKind = SceneRayCertificate::Step::Kind;
 
 struct RayCounts {
   int hits = 0, misses = 0, unknown = 0, exact = 0, narrow = 0;
@@ -44,13 +28,13 @@ struct RayCounts {
 
 void expect_ray_proven(const ConcaveBody& body, const Pose& pose, const Ray& ray,
                        const std::string& what, RayCounts& counts) {
-  BodyRayProver prover(body, pose);
-  const CheckedBody checked({body, pose});
+  SceneRayProver prover({{body, pose}});
+  CheckedScene checked({{body, pose}});
   for (const bool is_first : {true, false}) {
     const auto proof = prover.prove(ray.origin, ray.direction, ray.t_max, is_first);
     ASSERT_TRUE(proof) << what;
     EXPECT_EQ(checked.fault(*proof), "") << what;
-    const SceneRayHit hit = solved(body, pose, *proof);
+    const SceneRayHit hit = solved({{body, pose}}, *proof);
     switch (proof->answer) {
       case CastAnswer::unknown: ++counts.unknown; continue;
       case CastAnswer::miss:
@@ -135,14 +119,14 @@ TEST(BodyRayCertificates, EveryChangeIsRefused) {
     const ConcaveBody body = i % 2 == 0 ? body_of(families::torus(7, 5, 1, 0.5))
                                         : reference::compound(random, 3, i % 4 == 1, false);
     const Pose pose{random.rotation(), random.vector(1)};
-    const CheckedBody checked({body, pose});
+    CheckedScene checked({{body, pose}});
     const Vec3d origin = 4 * random.direction();
     const auto proof =
-        *BodyRayProver(body, pose).prove(origin, random.vector(1.5) - origin, no_end, true);
+        *SceneRayProver({{body, pose}}).prove(origin, random.vector(1.5) - origin, no_end, true);
     ASSERT_EQ(checked.fault(proof), "");
     const auto refused = [&](const std::string& what,
-                             const std::function<void(BodyRayCertificate&)>& change) {
-      BodyRayCertificate changed = proof;
+                             const std::function<void(SceneRayCertificate&)>& change) {
+      SceneRayCertificate changed = proof;
       change(changed);
       EXPECT_NE(checked.fault(changed), "") << what << " of " << i;
       ++changes;
@@ -155,6 +139,7 @@ TEST(BodyRayCertificates, EveryChangeIsRefused) {
     refused("a time before 0", [](auto& c) { c.lower.numerator = -1; });
     if (proof.answer == CastAnswer::hit) {
       refused("a miss", [](auto& c) { c.answer = CastAnswer::miss; });
+      refused("no body", [](auto& c) { c.body = 1; });
       refused("no part", [](auto& c) { c.part = 1000; });
       if (proof.upper.numerator == 0) continue;
       refused("later", [](auto& c) {
@@ -170,23 +155,33 @@ TEST(BodyRayCertificates, EveryChangeIsRefused) {
       refused("a hit", [](auto& c) { c.answer = CastAnswer::hit; });
       refused("a time of a miss", [](auto& c) { c.lower.numerator = 1; });
       refused("a part of a miss", [](auto& c) { c.part = 1; });
+      refused("a body of a miss", [](auto& c) { c.body = 1; });
     }
-    if (proof.cover.empty()) continue;
-    refused("a part is missing", [](auto& c) { c.order.pop_back(); });
-    refused("a part is there twice", [](auto& c) { c.order.push_back(0); });
-    refused("a part is none", [](auto& c) { c.order[0] = 1000; });
-    refused("a cover too long", [](auto& c) { c.cover.push_back({}); });
-    for (std::size_t k = 0; k < proof.cover.size(); ++k) {
-      refused("a step is missing",
-              [&](auto& c) { c.cover.erase(c.cover.begin() + static_cast<std::ptrdiff_t>(k)); });
-      refused("no step", [&](auto& c) { c.cover[k].kind = static_cast<RayKind>(9); });
-      if (proof.cover[k].kind != RayKind::own_plane) {
-        refused("another step", [&](auto& c) { c.cover[k].kind = RayKind::own_plane; });
+    if (proof.cover.steps.empty()) continue;
+    refused("no body is covered", [](auto& c) { c.cover = {}; });
+    refused("the body is halved", [](auto& c) { c.cover.steps[0].kind = RayKind::halve; });
+    refused("the body is a triangle", [](auto& c) { c.cover.steps[0].kind = RayKind::triangle; });
+    refused("a body's cover too much", [](auto& c) { c.of_bodies.emplace_back(); });
+    if (proof.of_bodies.empty()) continue;
+    refused("a body has no cover", [](auto& c) { c.of_bodies.clear(); });
+    refused("a part is missing", [](auto& c) { c.of_bodies[0].order.pop_back(); });
+    refused("a part is there twice", [](auto& c) { c.of_bodies[0].order.push_back(0); });
+    refused("a part is none", [](auto& c) { c.of_bodies[0].order[0] = 1000; });
+    refused("a cover too long", [](auto& c) { c.of_bodies[0].steps.push_back({}); });
+    const auto& steps = proof.of_bodies[0].steps;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      refused("a step is missing", [&](auto& c) {
+        c.of_bodies[0].steps.erase(c.of_bodies[0].steps.begin() + static_cast<std::ptrdiff_t>(k));
+      });
+      refused("no step", [&](auto& c) { c.of_bodies[0].steps[k].kind = static_cast<RayKind>(9); });
+      if (steps[k].kind != RayKind::own_plane) {
+        refused("another step",
+                [&](auto& c) { c.of_bodies[0].steps[k].kind = RayKind::own_plane; });
       }
-      if (proof.cover[k].kind != RayKind::plane) continue;
-      refused("no direction", [&](auto& c) { c.cover[k].direction = {}; });
+      if (steps[k].kind != RayKind::plane) continue;
+      refused("no direction", [&](auto& c) { c.of_bodies[0].steps[k].direction = {}; });
       refused("the other way", [&](auto& c) {
-        for (auto& x : c.cover[k].direction) x = -x;
+        for (auto& x : c.of_bodies[0].steps[k].direction) x = -x;
       });
     }
   }
@@ -201,14 +196,14 @@ TEST(BodyRayCertificates, WhatIsVerifiedIsTrue) {
     const ConcaveBody body = i % 2 == 0 ? body_of(families::torus(7, 5, 1, 0.5))
                                         : reference::compound(random, 3, i % 4 == 1, false);
     const Pose pose{random.rotation(), random.vector(1)};
-    const CheckedBody checked({body, pose});
-    BodyRayProver prover(body, pose);
+    CheckedScene checked({{body, pose}});
+    SceneRayProver prover({{body, pose}});
     const Vec3d origin = 4 * random.direction();
     const Vec3d direction = random.vector(1.5) - origin;
     const auto proof = *prover.prove(origin, direction, no_end, true);
     const auto other = *prover.prove(origin, direction + random.vector(1), no_end, true);
     for (int k = 0; k < 60; ++k) {
-      BodyRayCertificate c = proof;
+      SceneRayCertificate c = proof;
       for (int n = 0; n <= k % 2; ++n) {
         switch (random.below(9)) {
           case 0: c.answer = static_cast<CastAnswer>(random.below(3)); break;
@@ -219,7 +214,10 @@ TEST(BodyRayCertificates, WhatIsVerifiedIsTrue) {
           case 3:
             c.part = static_cast<std::uint32_t>(random.below(static_cast<int>(body.part_count())));
             break;
-          case 4: c.cover = other.cover; break;
+          case 4:
+            c.cover = other.cover;
+            c.of_bodies = other.of_bodies;
+            break;
           case 5: c.is_first = !c.is_first; break;
           case 6: c.t_max = random.uniform(0, 2); break;
           case 7: c.direction = other.direction; break;
@@ -233,7 +231,7 @@ TEST(BodyRayCertificates, WhatIsVerifiedIsTrue) {
       const bool holds = checked.fault(c).empty();
       ++(holds ? verified : refused);
       if (!holds || c.answer == CastAnswer::unknown) continue;
-      const SceneRayHit hit = solved(body, pose, c);
+      const SceneRayHit hit = solved({{body, pose}}, c);
       EXPECT_EQ(hit.hit, c.answer == CastAnswer::hit);
       if (c.answer != CastAnswer::hit) continue;
       EXPECT_GE(value_of(c.upper), hit.t * (1 - 1e-9));
@@ -256,23 +254,23 @@ TEST(BodyRayCertificates, EndsEmptyBodiesAndImproperRays) {
   expect_ray_proven(ball, {}, {{1, 0, 3}, {0, 0, -1}, no_end}, "tangent", counts);
   EXPECT_EQ(counts.hits, 6);
   EXPECT_EQ(counts.unknown, 0);
-  BodyRayProver prover(ball, {});
+  SceneRayProver prover({{ball, {}}});
   EXPECT_FALSE(prover.prove({0, 0, 3}, {0, 0, 0}, no_end, true));
   EXPECT_FALSE(prover.prove({0, 0, no_end}, {0, 0, 1}, no_end, true));
   EXPECT_FALSE(prover.prove({0, 0, 3}, {0, 0, 1}, std::nan(""), true));
   ConcaveBody rounded = ball;
   rounded.parts[0].rounding = 1e-300;
-  EXPECT_FALSE(BodyRayProver(rounded, {}).prove({0, 0, 3}, {0, 0, 1}, no_end, true));
+  EXPECT_FALSE(SceneRayProver({{rounded, {}}}).prove({0, 0, 3}, {0, 0, 1}, no_end, true));
   const auto proof = prover.prove({0, 0, 3}, {0, 0, 1}, no_end, true);
-  EXPECT_NE(CheckedBody({rounded, {}}).fault(*proof), "");
+  EXPECT_NE(CheckedScene({{rounded, {}}}).fault(*proof), "");
 }
 
 TEST(BodyRayCertificates, OfMissesWithoutEndAreProvenWhateverTheLengthOfTheDirection) {
   for (const Shape& shape : reference::shapes_of_all_kinds()) {
     if (shape.kind == ShapeKind::halfspace) continue;
     const ConcaveBody body = body_of(shape);
-    BodyRayProver prover(body, Pose{});
-    const CheckedBody checked({body, Pose{}});
+    SceneRayProver prover({{body, Pose{}}});
+    CheckedScene checked({{body, Pose{}}});
     for (const int power : {-1000, -600, -100, 0, 100, 600, 1000}) {
       const Vec3d way = std::ldexp(1.0, power) * Vec3d(1, 0.25, -0.5);
       const auto proof = prover.prove({-4, 3, 1}, way, no_end, true);

@@ -35,10 +35,10 @@ class MeshCertificates : public ::testing::Test {
     const auto mesh = [&](const TriangleMesh& read) { out += files::mesh_line(read) + "\n"; };
     const auto each = [&](const auto& stored, std::int64_t) { out += to_json(stored) + "\n"; };
     if (of_rays) {
-      const auto body = [&](const ConcaveBody& read, const Pose& pose) {
-        out += files::body_line(read, pose) + "\n";
+      const auto scene = [&](const std::vector<files::PlacedConcave>& read) {
+        out += files::scene_line(read) + "\n";
       };
-      files::read_ray_certificates(file, {mesh, each, body, each});
+      files::read_ray_certificates(file, {mesh, each, scene, each});
     } else {
       files::read_point_certificates(file, mesh, each);
     }
@@ -72,40 +72,48 @@ TEST_F(MeshCertificates, AreReadAsTheyWereWritten) {
   EXPECT_EQ(rewritten(points, false), points);
 }
 
-const std::string body_text =
-    R"({"body":{"shape":{"type":"sphere","radius":1.0},"translation":[0.0,0.0,1.0],)"
-    R"("rotation":[1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0]}})";
-const std::string at_body =
+const std::string ball_text =
+    R"({"shape":{"type":"sphere","radius":1.0},"translation":[0.0,0.0,1.0],)"
+    R"("rotation":[1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0]})";
+const std::string scene_text = R"({"bodies":[)" + ball_text + "," + ball_text + "]}";
+const std::string at_scene =
     R"({"ray":7,"task":"any","origin":[0.1,0.0,3.0],"direction":[0.0,0.0,-1.0],"t_max":5.0,)"
-    R"("answer":"hit","lower":["1","3"],"upper":["2","3"],"part":4,"generators":[0,3],)"
-    R"("surface":{"points":[[0,1]],"triangles":[[0,1,2]]},"order":[1,0],)"
-    R"("cover":["halve",["1","-2","0"],"own","triangle"]})";
+    R"("answer":"hit","lower":["1","3"],"upper":["2","3"],"body":1,"part":4,"generators":[0,3],)"
+    R"("surface":{"points":[[0,1]],"triangles":[[0,1,2]]},)"
+    R"("cover":{"order":[1,0],"steps":["halve",["1","-2","0"],"body"]},)"
+    R"("of_bodies":[{"order":[0],"steps":["own","triangle"]}]})";
 
-TEST_F(MeshCertificates, OfRaysAtBodies) {
-  const std::string once = rewritten(body_text + "\n" + at_body + "\n", true);
-  EXPECT_THAT(once, HasSubstr("\n" + at_body + "\n"));
+TEST_F(MeshCertificates, OfRaysAtScenes) {
+  const std::string once = rewritten(scene_text + "\n" + at_scene + "\n", true);
+  EXPECT_THAT(once, HasSubstr("\n" + at_scene + "\n"));
   EXPECT_EQ(rewritten(once, true), once);
   // A file may have both.
   const std::string both = once + mesh_text + "\n" + ray_text + "\n";
   EXPECT_EQ(rewritten(both, true), both);
-  const auto expect_body_fault = [&](const std::string& part, const std::string& other,
-                                     const std::string& said) {
-    std::string text = at_body;
+  const auto expect_scene_fault = [&](const std::string& part, const std::string& other,
+                                      const std::string& said) {
+    std::string text = at_scene;
     const auto place = text.find(part);
     ASSERT_NE(place, std::string::npos) << part;
     text.replace(place, part.size(), other);
-    EXPECT_THAT(fault(body_text + "\n" + text, true), HasSubstr("in.jsonl:2: " + said));
+    EXPECT_THAT(fault(scene_text + "\n" + text, true), HasSubstr("in.jsonl:2: " + said));
   };
-  for (const std::string key : {"ray", "task", "origin", "direction", "t_max", "answer", "lower",
-                                "upper", "part", "generators", "surface", "order", "cover"}) {
-    expect_body_fault("\"" + key + "\":", "\"x\":", "no \"" + key + "\"");
+  for (const std::string key :
+       {"ray", "task", "origin", "direction", "t_max", "answer", "lower", "upper", "body", "part",
+        "generators", "surface", "cover", "of_bodies"}) {
+    expect_scene_fault("\"" + key + "\":", "\"x\":", "no \"" + key + "\"");
   }
-  expect_body_fault("\"hit\"", "\"overlapping\"", "answer: found \"overlapping\"");
-  expect_body_fault("\"own\"", "\"plane\"", "cover[2]: found \"plane\"");
-  expect_body_fault("[\"1\",\"3\"]", "[\"1\"]", "lower: found an array of 1");
-  expect_body_fault("\"order\":[1,0]", "\"order\":[1,0.5]", "order[1]: found 0.5");
-  EXPECT_THAT(fault(R"({"body":{"shape":{"type":"sphere","radius":-1}}})", true),
-              HasSubstr("in.jsonl:1: body.shape.radius"));
+  expect_scene_fault("\"hit\"", "\"overlapping\"", "answer: found \"overlapping\"");
+  expect_scene_fault("\"own\"", "\"plane\"", "of_bodies[0].steps[0]: found \"plane\"");
+  expect_scene_fault("\"order\":", "\"x\":", "cover: no \"order\"");
+  expect_scene_fault("\"steps\":", "\"x\":", "cover: no \"steps\"");
+  expect_scene_fault("\"halve\"", "7", "cover.steps[0]: found 7");
+  expect_scene_fault("[{\"order\"", "[0,{\"order\"", "of_bodies[0]: found 0");
+  expect_scene_fault("[\"1\",\"3\"]", "[\"1\"]", "lower: found an array of 1");
+  expect_scene_fault("\"order\":[1,0]", "\"order\":[1,0.5]", "cover.order[1]: found 0.5");
+  EXPECT_THAT(fault(R"({"bodies":[{"shape":{"type":"sphere","radius":-1}}]})", true),
+              HasSubstr("in.jsonl:1: bodies[0].shape.radius"));
+  EXPECT_THAT(fault(R"({"bodies":{}})", true), HasSubstr("in.jsonl:1: bodies: found an object"));
 }
 
 TEST_F(MeshCertificates, WhatIsMalformedIsToldWithItsPlace) {
@@ -121,8 +129,8 @@ TEST_F(MeshCertificates, WhatIsMalformedIsToldWithItsPlace) {
   for (int i = 0; i < 20000; ++i) {
     nested.insert(0, R"({"shape":{"type":"compound","parts":[)").append("]}}");
   }
-  EXPECT_THAT(fault("{\"body\":" + nested + "}", true),
-              HasSubstr("in.jsonl:1: body.shape.parts[0]"));
+  EXPECT_THAT(fault("{\"bodies\":[" + nested + "]}", true),
+              HasSubstr("in.jsonl:1: bodies[0].shape.parts[0]"));
   EXPECT_THAT(fault(R"({"mesh":7})", false), HasSubstr("in.jsonl:1: mesh: found 7"));
   for (const std::string key : {"task", "origin", "direction", "t_max", "hit", "triangle", "t"}) {
     expect_fault(ray_text, "\"" + key + "\"", "\"x\"", true, "no \"" + key + "\"");

@@ -51,6 +51,11 @@ std::optional<RationalBox> box_of(const RationalCore& core) {
 
 }  // namespace
 
+bool has_rounded_places(const ConcaveBody& body) {
+  return std::ranges::any_of(
+      body.parts, [](const ConvexPart& part) { return part.rounding != 0 && !part.poses; });
+}
+
 PlacedParts::PlacedParts(const ConcaveBody& body, const Pose& pose)
     : body_(body), pose_(rational_pose(pose)) {
   solids_.reserve(body.part_count());
@@ -69,11 +74,6 @@ RationalPose PlacedParts::pose_of(std::uint32_t part) const {
 
 RationalCore PlacedParts::core(std::uint32_t part) const {
   return {solids_[part], pose_of(part), parts_root_bits};
-}
-
-bool PlacedParts::is_rounded() const {
-  return std::ranges::any_of(
-      body_.parts, [](const ConvexPart& part) { return part.rounding != 0 && !part.poses; });
 }
 
 mpq_class PlacedParts::support(const RationalVector& n, const RationalBox& box) const {

@@ -13,6 +13,9 @@
 
 namespace touchstone::oracle {
 
+// True if the places of parts were rounded before they were given, and the poses are not known.
+bool has_rounded_places(const ConcaveBody& body);
+
 // The body must outlive this object. All throw Fault for what is invalid.
 class PlacedParts {
  public:
@@ -23,8 +26,7 @@ class PlacedParts {
   RationalCore core(std::uint32_t part) const;
   mpq_class radius(std::uint32_t part) const { return rational(solids_[part].radius); }
   const mpq_class& greatest_radius() const { return greatest_radius_; }
-  // True if the places of parts were rounded before they were given, and the poses are not known.
-  bool is_rounded() const;
+  bool is_rounded() const { return has_rounded_places(body_); }
 
   // Boxes around the parts' cores, in body coordinates.
   const std::vector<std::optional<RationalBox>>& boxes() const { return boxes_; }

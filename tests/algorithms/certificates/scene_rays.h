@@ -1,0 +1,35 @@
+// Scenes at which rays are proven, and what the exact cast says about these rays, for tests.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "algorithms/oracle/certificates/parts/scene_ray_check.h"
+#include "algorithms/oracle/rays/exact_scene_ray_proofs.h"
+#include "tests/algorithms/certificates/bodies.h"
+
+namespace touchstone::reference {
+
+inline constexpr double no_end = std::numeric_limits<double>::infinity();
+
+inline double value_of(const oracle::TimeFraction& t) {
+  return mpq_class(oracle::rational(t.numerator) / oracle::rational(t.denominator)).get_d();
+}
+
+inline std::vector<oracle::PlacedBody> placed(const std::vector<SceneBody>& bodies) {
+  std::vector<oracle::PlacedBody> all;
+  for (const auto& [body, pose] : bodies) all.push_back({body, pose});
+  return all;
+}
+
+inline SceneRayHit solved(const std::vector<SceneBody>& bodies,
+                          const oracle::SceneRayCertificate& of) {
+  const auto cast = find_scene_ray_cast("exact")->make();
+  cast->bind(bodies);
+  const Ray ray{of.origin, of.direction, of.t_max};
+  SceneRayHit hit;
+  cast->cast(of.is_first ? RayTask::closest : RayTask::any, {&ray, 1}, {&hit, 1});
+  return hit;
+}
+
+}  // namespace touchstone::reference
