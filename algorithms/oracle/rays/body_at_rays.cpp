@@ -13,7 +13,7 @@
 namespace touchstone::oracle {
 namespace {
 
-using Kind = SceneRayCertificate::Step::Kind;
+using StepKind = SceneRayCertificate::Step::Kind;
 
 // At most so far are points of the body from the world's origin.
 double reach_of(const PlacedParts& parts, const Pose& pose) {
@@ -107,18 +107,18 @@ bool BodyAtRays::walk(const RaySpan& span, const PartNode& node, Steps& steps) {
                                           parts_.greatest_radius());
                   });
     if (parted) {
-      steps.push_back({Kind::plane, *parted});
+      steps.push_back({StepKind::plane, *parted});
       return true;
     }
   }
   if (node.is_leaf()) return part_is_free(span, tree_.part(node), steps);
-  steps.push_back({Kind::halve, {}});
+  steps.push_back({StepKind::halve, {}});
   return walk(span, node.first_half(), steps) && walk(span, node.second_half(), steps);
 }
 
 bool BodyAtRays::part_is_free(const RaySpan& span, std::uint32_t part, Steps& steps) {
   if (const auto triangle = triangle_of(parts_, part)) {
-    steps.push_back({Kind::triangle, {}});
+    steps.push_back({StepKind::triangle, {}});
     return span.passes(*triangle);
   }
   const RationalCore core = parts_.core(part);
@@ -127,7 +127,7 @@ bool BodyAtRays::part_is_free(const RaySpan& span, std::uint32_t part, Steps& st
     return reach && span.is_parted(along, *reach, parts_.radius(part));
   };
   if (core.is_halfspace()) {
-    steps.push_back({Kind::own_plane, {}});
+    steps.push_back({StepKind::own_plane, {}});
     return !is_zero(core.normal()) && is_parted(mpq_class(-1) * core.normal());
   }
   const Vec3d from = rounded_vector(span.origin);
@@ -145,7 +145,7 @@ bool BodyAtRays::part_is_free(const RaySpan& span, std::uint32_t part, Steps& st
   oracle_.prove(Body(segment, Pose{}), body, found);
   const auto parted = parting(found.direction, span, is_parted);
   if (!parted) return false;
-  steps.push_back({Kind::plane, *parted});
+  steps.push_back({StepKind::plane, *parted});
   return true;
 }
 

@@ -16,7 +16,7 @@ std::vector<SceneRayCastEntry> oracle_exact_scene_ray_cast();
 namespace touchstone::oracle {
 namespace {
 
-using Kind = SceneRayCertificate::Step::Kind;
+using StepKind = SceneRayCertificate::Step::Kind;
 
 std::vector<std::optional<RationalBox>> boxes_of(const std::vector<PlacedBody>& bodies) {
   std::vector<std::optional<RationalBox>> boxes;
@@ -126,17 +126,17 @@ bool SceneRayProver::walk(const RaySpan& span, const PartNode& node,
                                     return span.is_parted(n, support(mpq_class(-1) * n, *box), 0);
                                   });
     if (parted) {
-      steps.push_back({Kind::plane, *parted});
+      steps.push_back({StepKind::plane, *parted});
       return true;
     }
   }
   if (node.is_leaf()) {
-    steps.push_back({Kind::body, {}});
+    steps.push_back({StepKind::body, {}});
     // Covers are in the order of the steps, and none is written within another.
     SceneRayCertificate::Cover& cover = certificate.of_bodies.emplace_back();
     return at(tree_.part(node)).write_cover(span, cover);
   }
-  steps.push_back({Kind::halve, {}});
+  steps.push_back({StepKind::halve, {}});
   return walk(span, node.first_half(), certificate) && walk(span, node.second_half(), certificate);
 }
 

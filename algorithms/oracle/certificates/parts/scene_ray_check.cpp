@@ -1,7 +1,6 @@
 // Walks over the covers of bodies and of their parts, and looks at the part that is hit.
 #include "algorithms/oracle/certificates/parts/scene_ray_check.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,8 +9,8 @@
 namespace touchstone::oracle {
 namespace {
 
-using Step = SceneRayCertificate::Step;
-using Kind = Step::Kind;
+using RayStep = SceneRayCertificate::Step;
+using StepKind = RayStep::Kind;
 
 mpq_class time_of(const TimeFraction& fraction) {
   require(fraction.denominator > 0, "the denominator of a time is not positive");
@@ -23,10 +22,10 @@ bool is_zero_time(const TimeFraction& time) { return time.numerator == 0 && time
 // A walk over a tree that ends where the steps do. `is_parted` says whether a plane parts the ray from a box, and
 // `at_leaf` sees to any step at one body or part but to halve it.
 template <class IsParted, class AtLeaf>
-class Walk {
+class CoverWalk {
  public:
-  Walk(const std::vector<Step>& steps, const PartTree& tree, const IsParted& is_parted,
-       const AtLeaf& at_leaf)
+  CoverWalk(const std::vector<RayStep>& steps, const PartTree& tree, const IsParted& is_parted,
+            const AtLeaf& at_leaf)
       : steps_(steps), tree_(tree), is_parted_(is_parted), at_leaf_(at_leaf) {}
 
   void run() {
@@ -37,40 +36,40 @@ class Walk {
  private:
   void from(const PartNode& node) {
     require(next_ < steps_.size(), "the cover is too short");
-    const Step& step = steps_[next_++];
-    if (step.kind == Kind::halve) {
+    const RayStep& step = steps_[next_++];
+    if (step.kind == StepKind::halve) {
       require(!node.is_leaf(), "what is single is halved");
       from(node.first_half());
       return from(node.second_half());
     }
     if (node.is_leaf()) return at_leaf_(step, tree_.part(node));
-    require(step.kind == Kind::plane, "that step is not for a group");
+    require(step.kind == StepKind::plane, "that step is not for a group");
     require(tree_.box(node).has_value(), "a plane does not part an unbounded group");
     require(is_parted_(rational_vector(step.direction), *tree_.box(node)),
             "a plane does not part the ray from a group");
   }
 
-  const std::vector<Step>& steps_;
+  const std::vector<RayStep>& steps_;
   const PartTree& tree_;
   const IsParted& is_parted_;
   const AtLeaf& at_leaf_;
   std::size_t next_ = 0;
 };
 
-void require_part_is_free(const Step& step, const PlacedParts& parts, std::uint32_t part,
+void require_part_is_free(const RayStep& step, const PlacedParts& parts, std::uint32_t part,
                           const RaySpan& span) {
-  if (step.kind == Kind::triangle) {
+  if (step.kind == StepKind::triangle) {
     const auto triangle = triangle_of(parts, part);
     require(triangle.has_value(), "the part is no triangle");
     return require(span.passes(*triangle), "the ray meets a triangle before");
   }
   const RationalCore core = parts.core(part);
   RationalVector n = rational_vector(step.direction);
-  if (step.kind == Kind::own_plane) {
+  if (step.kind == StepKind::own_plane) {
     require(core.is_halfspace() && !is_zero(core.normal()), "the part is no half-space");
     n = mpq_class(-1) * core.normal();
   } else {
-    require(step.kind == Kind::plane, "that is no step for a part");
+    require(step.kind == StepKind::plane, "that is no step for a part");
   }
   const auto reach = core.support(mpq_class(-1) * n);
   require(reach && span.is_parted(n, *reach, parts.radius(part)),
@@ -81,12 +80,14 @@ void require_parts_are_free(const SceneRayCertificate::Cover& cover, const Place
                             const RaySpan& span) {
   const PartTree tree(cover.order, parts.boxes());
   if (parts.size() == 0) return require(cover.steps.empty(), "the cover is too long");
-  Walk(
+  CoverWalk(
       cover.steps, tree,
       [&](const RationalVector& n, const RationalBox& box) {
         return span.is_parted(n, parts.support(mpq_class(-1) * n, box), parts.greatest_radius());
       },
-      [&](const Step& step, std::uint32_t part) { require_part_is_free(step, parts, part, span); })
+      [&](const RayStep& step, std::uint32_t part) {
+        require_part_is_free(step, parts, part, span);
+      })
       .run();
 }
 
@@ -167,20 +168,20 @@ void CheckedScene::require_free(const SceneRayCertificate& certificate, const Ra
     return span.is_parted(n, support(mpq_class(-1) * n, box), 0);
   };
   std::size_t seen = 0;
-  const auto at_body = [&](const Step& step, std::uint32_t body) {
-    if (step.kind == Kind::plane) {
+  const auto at_body = [&](const RayStep& step, std::uint32_t body) {
+    if (step.kind == StepKind::plane) {
       require(boxes_[body].has_value(), "a plane does not part an unbounded body");
       return require(is_parted(rational_vector(step.direction), *boxes_[body]),
                      "a plane does not part the ray from a body");
     }
-    require(step.kind == Kind::body, "that is no step for a body");
+    require(step.kind == StepKind::body, "that is no step for a body");
     require(seen < certificate.of_bodies.size(), "a body has no cover");
     require_parts_are_free(certificate.of_bodies[seen++], parts_of(body), span);
   };
   if (bodies_.empty()) {
     require(certificate.cover.steps.empty(), "the cover is too long");
   } else {
-    Walk(certificate.cover.steps, tree, is_parted, at_body).run();
+    CoverWalk(certificate.cover.steps, tree, is_parted, at_body).run();
   }
   require(seen == certificate.of_bodies.size(), "there are covers of no body");
 }

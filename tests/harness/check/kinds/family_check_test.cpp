@@ -189,7 +189,7 @@ TEST_F(FamilyCheck, SoaksCountThousandsOfThem) {
     EXPECT_GT(count.right, 0);
   }
   EXPECT_TRUE(result.ours_are_wrong(request));
-  EXPECT_THAT(check::soak_text(request, result, 120), Not(HasSubstr("Only the first")));
+  EXPECT_THAT(check::soak_text(request, result, 120), Not(HasSubstr("Only ")));
 }
 
 TEST_F(FamilyCheck, SoaksThatAreTooSmallSaySo) {
@@ -197,7 +197,7 @@ TEST_F(FamilyCheck, SoaksThatAreTooSmallSaySo) {
   auto request = request_for<check::SoakRequest>(planted.contestants());
   request.pairs = 500;
   const std::string text = check::soak_text(request, check::run_soak(request), 120);
-  EXPECT_THAT(text, HasSubstr("Only the first 1 of 6 regimes and families were asked, each 1000 "
+  EXPECT_THAT(text, HasSubstr("Only 1 of 6 regimes and families were asked, each 1000 "
                               "cases; --pairs 6000 asks all."));
   EXPECT_THAT(text, HasSubstr("Bodies that need not be convex"));
   EXPECT_THAT(text, Not(HasSubstr("Points")));
