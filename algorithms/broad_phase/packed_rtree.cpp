@@ -10,13 +10,14 @@
 //             have grown by a quarter, or bodies come or go.
 //          4. For each group of 256 boxes, descend the tree level by level and list the blocks that
 //             overlap the group's bounds and are not before it.
-//          5. For each block of the group, narrow that list to the blocks that overlap it.
-//          6. Test its 16 boxes against each other; list the boxes of the others that overlap its
-//             bounds, and test each of these against the 16 at once.
+//          5. For each block of the group, narrow that list to the blocks that overlap it, and list
+//             the boxes of these that overlap its bounds.
+//          6. Test the boxes of each block against each other, and each listed box against the 16 at
+//             once. List those that overlap any, and write their pairs.
 // Departs: boxes much larger than the extent of a block follow in a class of their own, so that
 //          they do not inflate the bounds of small ones. Blocks are paired only with those after
-//          them, so each pair comes once. Each stage first lists its candidates and then goes
-//          through the list, which leaves few branches to mispredict. While bodies move a little
+//          them, so each pair comes once. Each stage goes through all blocks of the group and
+//          lists its candidates for the next one, which leaves few branches to mispredict. While bodies move a little
 //          the order is kept.
 // Fails:   long thin boxes in all directions: their blocks overlap in any order.
 // Cost:    O(n) time for order and tree, O(n + k) expected for the search; k = pairs that overlap.

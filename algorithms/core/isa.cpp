@@ -12,7 +12,8 @@ Isa detect() {
   __builtin_cpu_init();
   if (!__builtin_cpu_supports("avx2")) return Isa::baseline;
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("bmi2")) {
     return Isa::avx512;
   }
   return Isa::avx2;

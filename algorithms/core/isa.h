@@ -12,7 +12,7 @@
 
 namespace touchstone {
 
-enum class Isa : std::uint8_t { baseline, avx2, avx512 };  // avx512: F, BW, DQ and VL
+enum class Isa : std::uint8_t { baseline, avx2, avx512 };  // avx512: F, BW, DQ, VL, and BMI2
 
 // Returns the level in use: the machine's best, or the limit if that is lower.
 Isa isa();

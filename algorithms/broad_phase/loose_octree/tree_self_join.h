@@ -53,7 +53,7 @@ struct JoinTree {
 struct JoinScratch {
   AabbStack list;
   std::vector<std::uint32_t> leaves, inner;
-  NearList near;
+  GroupLists lists;
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 

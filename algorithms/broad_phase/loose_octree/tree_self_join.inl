@@ -107,7 +107,7 @@ TOUCHSTONE_TARGET inline void pair_leaf(const Join& join, std::size_t node, Inde
   const std::size_t leaves = list_leaves(join, bound, behind);
   const IndexRange members{leaf.begin(), leaf.begin() + leaf.count()};
   const std::size_t listed = pair_group_with_runs(
-      join.boxes, members, bound, s.near, join.out, [&](const auto& visit) TOUCHSTONE_TARGET {
+      join.boxes, members, bound, s.lists, join.out, [&](const auto& visit) TOUCHSTONE_TARGET {
         for (std::size_t i = 0; i < leaves; ++i) {
           const NodeRef other{s.leaves[i]};
           visit(other.begin(), other.count());

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
@@ -34,7 +35,9 @@ struct MutableColumns {
   std::uint32_t* ids;
 };
 
-inline MutableColumns mutable_columns_of(AabbStack& boxes) {
+// The columns of an AabbSoA or an AabbStack.
+template <class Boxes>
+MutableColumns mutable_columns_of(Boxes& boxes) {
   return {{boxes.min(0), boxes.min(1), boxes.min(2)},
           {boxes.max(0), boxes.max(1), boxes.max(2)},
           boxes.ids()};

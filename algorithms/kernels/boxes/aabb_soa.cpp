@@ -1,4 +1,4 @@
-// The memory and the filling of an AabbSoA.
+// The memory and the filling of an AabbSoA, and the choice of the instruction level for that.
 #include "algorithms/kernels/boxes/aabb_soa.h"
 
 #include <algorithm>
@@ -6,7 +6,28 @@
 #include <numeric>
 #include <utility>
 
+#include "algorithms/kernels/boxes/aabb_simd.h"
+
 namespace touchstone {
+namespace {
+
+using aabb_simd::MutableColumns;
+
+#define TOUCHSTONE_TARGET_NAMESPACE aabb_simd
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/boxes/aabb_soa.inl"
+#include "algorithms/kernels/simd/foreach_target.inl"
+
+}  // namespace
+
+void AabbSoA::set(std::size_t first, std::span<const Aabb> boxes,
+                  std::span<const std::uint32_t> ids) {
+  const MutableColumns to = aabb_simd::mutable_columns_of(*this);
+  switch (isa()) {
+    case Isa::avx512: return avx512::set_boxes(to, first, boxes, ids);
+    case Isa::avx2: return avx2::set_boxes(to, first, boxes, ids);
+    case Isa::baseline: return baseline::set_boxes(to, first, boxes, ids);
+  }
+}
 
 void AabbSoA::resize(std::size_t count) {
   if (count + padding > stride_) {

@@ -48,12 +48,16 @@ class AabbSoA {
     }
     ids_[place] = id;
   }
+  // Sets the places from `first` on to boxes[ids[i]].
+  void set(std::size_t first, std::span<const Aabb> boxes, std::span<const std::uint32_t> ids);
   // Sets place i to boxes[id(i)], for each i < count.
   template <class Id>
   void gather(Executor& executor, std::span<const Aabb> boxes, std::size_t count, const Id& id) {
     resize(count);
-    for_each_block(executor, count, 8192, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) set(i, boxes[id(i)], id(i));
+    for_each_block(executor, count, 2048, [&](std::size_t, std::size_t first, std::size_t last) {
+      std::array<std::uint32_t, 2048> ids;
+      for (std::size_t i = first; i < last; ++i) ids[i - first] = id(i);
+      set(first, boxes, std::span(ids).first(last - first));
     });
   }
 

@@ -54,9 +54,9 @@ void scan_group(const AabbSoA& boxes, IndexRange group, const Aabb& bounds,
   const Columns columns = columns_of(boxes);
   const auto scan = [&] {
     switch (isa()) {
-      case Isa::avx512: return avx512::scan(columns, group, bounds, others, scratch.near, out);
-      case Isa::avx2: return avx2::scan(columns, group, bounds, others, scratch.near, out);
-      default: return baseline::scan(columns, group, bounds, others, scratch.near, out);
+      case Isa::avx512: return avx512::scan(columns, group, bounds, others, scratch.lists, out);
+      case Isa::avx2: return avx2::scan(columns, group, bounds, others, scratch.lists, out);
+      default: return baseline::scan(columns, group, bounds, others, scratch.lists, out);
     }
   };
   const auto near = static_cast<std::int64_t>(scan());

@@ -15,7 +15,7 @@ namespace touchstone {
 
 // Lists and counters of a scan; one for each worker.
 struct GroupScratch {
-  NearList near;
+  GroupLists lists;
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 

@@ -23,8 +23,17 @@ namespace touchstone {
 inline constexpr std::size_t group_size = 16;
 inline constexpr std::size_t near_at_once = 512;
 
-// Places of boxes that overlap a group's bounds and are not tested yet.
-using NearList = std::array<std::uint32_t, near_at_once + group_size>;
+// Lists of a search; one for each worker.
+struct GroupLists {
+  // Places of boxes that overlap a group's bounds and are not tested yet.
+  std::array<std::uint32_t, near_at_once + group_size> near;
+  // Places of boxes, and for each the bits of those that it overlaps among the 16 boxes from another
+  // place on. Most boxes that are tested overlap none, so those that do are listed before their
+  // pairs are written. There is room for all that are near, and those of 16 groups.
+  static constexpr std::size_t most_hits = near_at_once + (2 + group_size) * group_size;
+  std::array<std::uint32_t, most_hits> places, firsts;
+  std::array<std::uint16_t, most_hits> bits;
+};
 
 // Calls search(group, scratch, out) for each group. A task runs `per_task` groups in turn and
 // writes to a chunk of its own, so the pairs and their order do not depend on the width. `scratch`

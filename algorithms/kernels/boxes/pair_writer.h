@@ -88,16 +88,25 @@ struct PairWriter {
   }
   TOUCHSTONE_TARGET static IndexPair* put(unsigned bits, std::uint32_t id, Ids ids,
                                           IndexPair* end) {
-    const __m512i one = _mm512_set1_epi32(static_cast<int>(id));
-    const __m512i others = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), ids);
-    const __m512i a = _mm512_min_epu32(one, others);
-    const __m512i b = _mm512_max_epu32(one, others);
-    const __m512i low = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
-    const __m512i high =
-        _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+    const __m128i one = _mm_set1_epi32(static_cast<int>(id));
+    const __m128i nibbles = _mm_setr_epi32(0, 4, 8, 12);
+    const __m256i in_turn = _mm256_setr_epi32(0, 8, 1, 9, 2, 10, 3, 11);
     const auto count = static_cast<std::size_t>(std::popcount(bits));
-    _mm512_storeu_si512(end, _mm512_permutex2var_epi32(a, low, b));
-    if (count > 8) _mm512_storeu_si512(end + 8, _mm512_permutex2var_epi32(a, high, b));
+    std::uint64_t numbers = Simd<float>::numbers_of(bits);
+    // Four pairs at a time, because mostly there are fewer, and whole vectors that cross lines of
+    // the cache are slow to store.
+    std::size_t written = 0;
+    do {
+      const __m128i order = _mm_srlv_epi32(_mm_set1_epi32(static_cast<int>(numbers)), nibbles);
+      const __m128i others =
+          _mm512_castsi512_si128(_mm512_permutexvar_epi32(_mm512_castsi128_si512(order), ids));
+      const __m256i a = _mm256_castsi128_si256(_mm_min_epu32(one, others));
+      const __m256i b = _mm256_castsi128_si256(_mm_max_epu32(one, others));
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(end + written),
+                          _mm256_permutex2var_epi32(a, in_turn, b));
+      numbers >>= 16;
+      written += 4;
+    } while (written < count);
     return end + count;
   }
   TOUCHSTONE_TARGET static void write(unsigned bits, std::uint32_t id, const std::uint32_t* ids,

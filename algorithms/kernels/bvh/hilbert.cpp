@@ -6,22 +6,21 @@
 #include <cstring>
 #include <functional>
 
-#include "algorithms/kernels/simd/vector.h"
+#include "algorithms/kernels/boxes/aabb_simd.h"
 
 namespace touchstone {
 namespace {
 
-constexpr std::size_t boxes_at_once = 32;
-
-// Doubled centres, indexed by axis and box.
-using Centres = std::array<std::array<float, boxes_at_once>, 3>;
+constexpr std::size_t boxes_at_once = 64;
 
 // The numbering of cells; axes with more than one cell come first.
 struct Numbering {
   int axes, bits;
+  std::array<std::size_t, 3> axis;
   std::array<float, 3> low, scale;
 };
 
+#define TOUCHSTONE_TARGET_NAMESPACE aabb_simd
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/hilbert.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
@@ -56,38 +55,22 @@ HilbertGrid::HilbertGrid(const std::array<float, 3>& low, const std::array<float
 }
 
 void HilbertGrid::codes(std::span<const Aabb> boxes, std::uint32_t* codes) const {
-  codes_of(
-      boxes.size(), [&](std::size_t i) -> const Aabb& { return boxes[i]; }, codes);
-}
-
-void HilbertGrid::codes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
-                        std::uint32_t* codes) const {
-  codes_of(
-      ids.size(), [&](std::size_t i) -> const Aabb& { return boxes[ids[i]]; }, codes);
-}
-
-template <class Box>
-void HilbertGrid::codes_of(std::size_t total, const Box& box_of, std::uint32_t* codes) const {
-  Numbering numbering{axes_, bits_, {}, {}};
+  Numbering numbering{axes_, bits_, axis_, {}, {}};
   for (std::size_t i = 0; i < 3; ++i) {
     numbering.low[i] = low_[axis_[i]];
     numbering.scale[i] = scale_[axis_[i]];
   }
   const auto places = places_of_level();
-  const auto [x, y, z] = axis_;
-  Centres centres{};
-  for (std::size_t first = 0; first < total; first += boxes_at_once) {
-    const std::size_t count = std::min(boxes_at_once, total - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Aabb& box = box_of(first + i);
-      centres[0][i] = box.min[x] + box.max[x];
-      centres[1][i] = box.min[y] + box.max[y];
-      centres[2][i] = box.min[z] + box.max[z];
-    }
-    std::uint32_t found[boxes_at_once];
-    places(numbering, centres, count == boxes_at_once ? codes + first : found);
-    if (count < boxes_at_once) std::copy_n(found, count, codes + first);
+  const std::size_t whole = boxes.size() / boxes_at_once * boxes_at_once;
+  for (std::size_t i = 0; i < whole; i += boxes_at_once) {
+    places(numbering, &boxes[i], codes + i);
   }
+  if (whole == boxes.size()) return;
+  std::array<Aabb, boxes_at_once> last{};
+  std::ranges::copy(boxes.subspan(whole), last.begin());
+  std::array<std::uint32_t, boxes_at_once> found;
+  places(numbering, last.data(), found.data());
+  std::copy_n(found.begin(), boxes.size() - whole, codes + whole);
 }
 
 }  // namespace touchstone

@@ -24,15 +24,8 @@ class HilbertGrid {
   // Writes the place of boxes[i]'s centre to codes[i]. The codes are equal at every level of vector
   // instructions. An empty box gets an arbitrary code.
   void codes(std::span<const Aabb> boxes, std::uint32_t* codes) const;
-  // Writes the place of boxes[ids[i]]'s centre to codes[i].
-  void codes(std::span<const Aabb> boxes, std::span<const std::uint32_t> ids,
-             std::uint32_t* codes) const;
 
  private:
-  // Writes the places of the boxes box_of(i), i < total.
-  template <class Box>
-  void codes_of(std::size_t total, const Box& box_of, std::uint32_t* codes) const;
-
   std::array<float, 3> low_, scale_;
   std::array<std::size_t, 3> axis_;  // the axes with more than one cell come first
   int axes_ = 0;

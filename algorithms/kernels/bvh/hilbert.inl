@@ -4,13 +4,13 @@
 // Vectors are changed in place and never passed by value, because the calling convention for that
 // depends on the level.
 
-constexpr std::size_t lanes = Simd<float>::width;
+constexpr std::size_t lanes = Lanes::width;
 using Integers = std::uint32_t __attribute__((vector_size(4 * lanes)));
 using Signed = std::int32_t __attribute__((vector_size(4 * lanes)));
 using Floats = float __attribute__((vector_size(4 * lanes)));
 
-// Two vectors are computed at a time, so that neither waits for its own last result.
-constexpr std::size_t parts = 2;
+// Some vectors are computed at a time, so that none waits for its own last result.
+constexpr std::size_t parts = 4;
 
 // Skilling's transpose of the cell numbers.
 template <int axes>
@@ -55,11 +55,9 @@ TOUCHSTONE_TARGET inline void spread(Integers& x) {
 
 // Computes the numbers of the cells that contain the centres.
 TOUCHSTONE_TARGET inline void cell(const Numbering& numbering, std::size_t axis,
-                                   const float* centres, Integers& x) {
+                                   const Floats& centre, Integers& x) {
   const auto last = static_cast<float>((1u << numbering.bits) - 1);
-  Floats place;
-  std::memcpy(&place, centres, sizeof place);
-  place = (place - numbering.low[axis]) * numbering.scale[axis];
+  Floats place = (centre - numbering.low[axis]) * numbering.scale[axis];
   // A sum that overflows is at the end of the curve; one that is NaN, at its beginning.
   place = place > 0.0f ? place : Floats{};
   place = place < last ? place : Floats{} + last;
@@ -67,14 +65,18 @@ TOUCHSTONE_TARGET inline void cell(const Numbering& numbering, std::size_t axis,
 }
 
 template <int axes>
-TOUCHSTONE_TARGET inline void places_on(const Numbering& numbering, const Centres& centres,
+TOUCHSTONE_TARGET inline void places_on(const Numbering& numbering, const Aabb* boxes,
                                         std::uint32_t* codes) {
   for (std::size_t first = 0; first < boxes_at_once; first += parts * lanes) {
     Integers x[axes][parts];
-    for (int i = 0; i < axes; ++i) {
-      const auto axis = static_cast<std::size_t>(i);
-      for (std::size_t k = 0; k < parts; ++k) {
-        cell(numbering, axis, centres[axis].data() + first + k * lanes, x[i][k]);
+    for (std::size_t k = 0; k < parts; ++k) {
+      BoxLanes box;
+      load_boxes([&](std::size_t lane) { return boxes + first + k * lanes + lane; }, box);
+      Floats centres[3];
+      for (int axis = 0; axis < 3; ++axis) centres[axis] = box.min[axis] + box.max[axis];
+      for (int i = 0; i < axes; ++i) {
+        const auto axis = static_cast<std::size_t>(i);
+        cell(numbering, axis, centres[numbering.axis[axis]], x[i][k]);
       }
     }
     to_transpose<axes>(x, numbering.bits);
@@ -89,12 +91,11 @@ TOUCHSTONE_TARGET inline void places_on(const Numbering& numbering, const Centre
   }
 }
 
-// Computes the places on the curve of `boxes_at_once` centres.
-TOUCHSTONE_TARGET void places(const Numbering& numbering, const Centres& centres,
-                              std::uint32_t* codes) {
+// Computes the places on the curve of the centres of `boxes_at_once` boxes.
+TOUCHSTONE_TARGET void places(const Numbering& numbering, const Aabb* boxes, std::uint32_t* codes) {
   switch (numbering.axes) {
-    case 1: return places_on<1>(numbering, centres, codes);
-    case 2: return places_on<2>(numbering, centres, codes);
-    default: return places_on<3>(numbering, centres, codes);
+    case 1: return places_on<1>(numbering, boxes, codes);
+    case 2: return places_on<2>(numbering, boxes, codes);
+    default: return places_on<3>(numbering, boxes, codes);
   }
 }

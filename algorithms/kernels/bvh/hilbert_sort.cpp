@@ -1,4 +1,4 @@
-// Hilbert sort: size classes, the sort by key, and finer curves for dense cells.
+// Hilbert sort: the sort by key, and finer curves for dense cells.
 #include "algorithms/kernels/bvh/hilbert_sort.h"
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/kernels/bvh/hilbert.h"
 #include "algorithms/kernels/bvh/implicit_rtree.h"
+#include "algorithms/kernels/bvh/size_classes.h"
 
 namespace touchstone {
 namespace {
@@ -24,104 +25,6 @@ constexpr int cells_a_body_log2 = 1;
 constexpr std::size_t most_in_cell = 32;
 
 int bits_of(std::size_t x) { return static_cast<int>(std::bit_width(x)); }
-
-struct Region {
-  static constexpr float inf = std::numeric_limits<float>::infinity();
-  std::array<float, 3> low{inf, inf, inf}, high{-inf, -inf, -inf};  // bounds of doubled centres
-
-  void add(const Aabb& box) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float centre = box.min[axis] + box.max[axis];
-      low[axis] = std::min(low[axis], centre);
-      high[axis] = std::max(high[axis], centre);
-    }
-  }
-};
-
-// The magnitude of a box is that of its longest side; there are two to an octave.
-constexpr std::size_t magnitudes = 512;
-std::size_t magnitude(float side) { return std::bit_cast<std::uint32_t>(side) >> 22 & 511; }
-std::size_t magnitude(const Aabb& box) {
-  return magnitude(
-      std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]}));
-}
-
-// Estimates for all boxes from every stride-th one.
-struct Sample {
-  Region region;
-  std::array<std::uint32_t, magnitudes> members{};
-  std::size_t stride;
-
-  Sample(std::span<const Aabb> boxes, std::size_t every) : stride(every) {
-    for (std::size_t i = 0; i < boxes.size(); i += stride) {
-      if (boxes[i].is_empty()) continue;
-      region.add(boxes[i]);
-      ++members[magnitude(boxes[i])];
-    }
-  }
-  bool empty() const { return region.low[0] > region.high[0]; }
-};
-
-Sample take_sample(std::span<const Aabb> boxes) {
-  Sample sample(boxes, std::max<std::size_t>(1, boxes.size() / 1024));
-  return sample.empty() && sample.stride > 1 ? Sample(boxes, 1) : sample;
-}
-
-// Returns the mean distance between this many bodies that fill a region, which may be flat or a
-// line (metres).
-double spacing(const Region& region, double bodies) {
-  std::array<double, 3> extent;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    extent[axis] = (double{region.high[axis]} - region.low[axis]) / 2;
-  }
-  std::ranges::sort(extent, std::greater());
-  const double space = std::cbrt(extent[0] * extent[1] * extent[2] / bodies);
-  if (extent[2] >= space) return space;
-  const double plane = std::sqrt(extent[0] * extent[1] / bodies);
-  return extent[1] >= plane ? plane : extent[0] / bodies;
-}
-
-struct Classes {
-  std::array<std::uint8_t, magnitudes> of{};  // class of each magnitude
-  std::size_t count = 0;
-};
-
-// Makes classes from the smallest size up. Boxes that are not much larger than the space of a block
-// of 16 can share a class with the smallest; the larger ones are fewer, so their blocks are larger,
-// and the same rule makes the next class.
-Classes make_classes(const Sample& sample) {
-  constexpr double most_spacings = 5;
-  double bodies = 0;
-  for (const std::uint32_t members : sample.members) bodies += members;
-  Classes classes;
-  std::size_t from = 0;
-  while (bodies > 0 && classes.count + 2 < HilbertSort::most_classes) {
-    const double side =
-        most_spacings * spacing(sample.region, bodies * static_cast<double>(sample.stride));
-    const std::size_t end = std::clamp(magnitude(static_cast<float>(side)) + 1, from, magnitudes);
-    double inside = 0;
-    for (std::size_t i = from; i < end; ++i) inside += sample.members[i];
-    if (inside == 0) break;  // all boxes overlap many others: size does not separate them
-    std::fill(classes.of.begin() + static_cast<std::ptrdiff_t>(from),
-              classes.of.begin() + static_cast<std::ptrdiff_t>(end),
-              static_cast<std::uint8_t>(classes.count));
-    ++classes.count;
-    bodies -= inside;
-    from = end;
-  }
-  std::size_t seen = magnitudes;
-  while (seen > from && sample.members[seen - 1] == 0) --seen;
-  // The last two classes: the rest, and boxes larger than any of the sample.
-  for (const std::size_t end : {seen, magnitudes}) {
-    if (end == from) continue;
-    std::fill(classes.of.begin() + static_cast<std::ptrdiff_t>(from),
-              classes.of.begin() + static_cast<std::ptrdiff_t>(end),
-              static_cast<std::uint8_t>(classes.count));
-    ++classes.count;
-    from = end;
-  }
-  return classes;
-}
 
 // Sorts items by these bits of theirs, least significant digit first, and keeps the order of those
 // that are equal. `spare` has as many items.
@@ -152,29 +55,29 @@ void sort_by_bits(std::span<std::uint64_t> items, std::span<std::uint64_t> spare
 }  // namespace
 
 void HilbertSort::make(Executor& executor, std::span<const Aabb> boxes) {
-  const Sample sample = take_sample(boxes);
+  const SizeSample sample = take_sample(boxes);
   used_ = 0;
   if (sample.empty()) return;
-  const Classes classes = make_classes(sample);
+  const SizeClasses classes(sample);
   order_.resize(boxes.size());
   id_bits_ = bits_of(boxes.size());
   const int wanted = (bits_of(boxes.size()) + cells_a_body_log2 + 2) / 3 * 3;
   const HilbertGrid grid(sample.region.low, sample.region.high, std::min(wanted, 30));
   for_each_block(executor, boxes.size(), boxes_at_once,
                  [&](std::size_t, std::size_t first, std::size_t last) {
-                   std::array<std::uint32_t, boxes_at_once> codes;
-                   grid.codes(boxes.subspan(first, last - first), codes.data());
+                   const std::span<const Aabb> some = boxes.subspan(first, last - first);
+                   std::array<std::uint32_t, boxes_at_once> codes, own;
+                   grid.codes(some, codes.data());
+                   classes.of(some, own.data());
                    for (std::size_t i = first; i < last; ++i) {
-                     // Empty boxes come last.
-                     const std::uint64_t own =
-                         boxes[i].is_empty() ? classes.count : classes.of[magnitude(boxes[i])];
-                     const std::uint64_t key = own << grid.code_bits() | codes[i - first];
+                     const std::uint64_t key =
+                         std::uint64_t{own[i - first]} << grid.code_bits() | codes[i - first];
                      order_[i] = key << id_bits_ | i;
                    }
                  });
-  radix_sort_(executor, order_, grid.code_bits() + bits_of(classes.count),
+  radix_sort_(executor, order_, grid.code_bits() + bits_of(classes.count()),
               [bits = id_bits_](std::uint64_t item) { return item >> bits; });
-  for (std::size_t at = 1; at <= classes.count; ++at) {
+  for (std::size_t at = 1; at <= classes.count(); ++at) {
     const std::uint64_t least = std::uint64_t{at} << (grid.code_bits() + id_bits_);
     const auto end = std::lower_bound(order_.begin(), order_.end(), least);
     const auto begin = static_cast<std::size_t>(end - order_.begin());
@@ -210,7 +113,7 @@ void HilbertSort::refine(std::span<const Aabb> boxes, std::size_t first, std::si
   const auto prefetch = [&](std::size_t i) {
     if (i + ahead < last) __builtin_prefetch(&boxes[id(i + ahead)]);
   };
-  Region region;
+  CentreRegion region;
   for (std::size_t i = first; i < last; ++i) {
     prefetch(i);
     region.add(boxes[id(i)]);
@@ -262,13 +165,9 @@ void HilbertSort::gather(Executor& executor, std::span<const Aabb> boxes, AabbSo
     const std::size_t members = begins_[at + 1] - begin;
     for_each_block(executor, members, boxes_at_once,
                    [&](std::size_t, std::size_t first, std::size_t last) {
-                     // The boxes are scattered in memory, so they are prefetched.
-                     constexpr std::size_t ahead = 24;
-                     for (std::size_t i = first; i < last; ++i) {
-                       if (i + ahead < last) __builtin_prefetch(&boxes[id(begin + i + ahead)]);
-                       const std::uint32_t body = id(begin + i);
-                       arrays.set(place + i, boxes[body], body);
-                     }
+                     std::array<std::uint32_t, boxes_at_once> ids;
+                     for (std::size_t i = first; i < last; ++i) ids[i - first] = id(begin + i);
+                     arrays.set(place + first, boxes, std::span(ids).first(last - first));
                    });
     place += members;
   }

@@ -12,6 +12,7 @@
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor/executor.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
+#include "algorithms/kernels/bvh/size_classes.h"
 #include "algorithms/kernels/sorting/radix_sort.h"
 
 namespace touchstone {
@@ -23,8 +24,6 @@ namespace touchstone {
 // far away, or dense clusters, do not spoil the order.
 class HilbertSort {
  public:
-  static constexpr std::size_t most_classes = 16;
-
   // Sorts the boxes that are not empty.
   void make(Executor& executor, std::span<const Aabb> boxes);
   bool empty() const { return used_ == 0; }
@@ -51,9 +50,9 @@ class HilbertSort {
   std::vector<std::uint64_t> spare_;  // scratch of refine, if a cell needs it
   int id_bits_ = 0;
   RadixSort<std::uint64_t> radix_sort_;
-  std::vector<IndexRange> runs_;                        // ranges of boxes in one cell
-  std::size_t used_ = 0;                                // number of classes
-  std::array<std::size_t, most_classes + 1> begins_{};  // first box of each class
+  std::vector<IndexRange> runs_;                             // ranges of boxes in one cell
+  std::size_t used_ = 0;                                     // number of classes
+  std::array<std::size_t, SizeClasses::most + 1> begins_{};  // first box of each class
 };
 
 }  // namespace touchstone

@@ -19,10 +19,10 @@ using aabb_simd::MutableColumns;
 constexpr std::size_t fan = ImplicitRTree::fan;
 
 // Returns the number of the parents' children at or after `from`; their level has `size` nodes.
-std::size_t children_of(const std::vector<std::uint32_t>& parents, std::size_t count,
-                        std::size_t size, std::size_t from) {
+std::size_t children_of(std::span<const std::uint32_t> parents, std::size_t size,
+                        std::size_t from) {
   std::size_t children = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < parents.size(); ++i) {
     const std::size_t first = parents[i] * fan;
     children += std::min(first + fan, size) - std::max(first, from);
   }

@@ -53,7 +53,8 @@ class ImplicitRTree {
 struct RTreeScratch {
   std::vector<std::uint32_t> nodes, children;  // nodes of two consecutive levels
   AabbStack blocks;                            // bounds and numbers of the blocks near the group
-  NearList near;
+  std::vector<std::uint32_t> others;           // blocks that overlap one of the group's
+  GroupLists lists;
   BroadPhaseWork work{.box_tests = 0, .node_visits = 0, .candidates = 0};
 };
 

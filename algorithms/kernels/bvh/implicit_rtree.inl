@@ -17,8 +17,8 @@ TOUCHSTONE_TARGET inline std::size_t descend(const Row& row, const ImplicitRTree
     const Columns nodes = columns_of(levels[level]);
     const std::size_t before = from >> (4 * (level - target));
     scratch.work.node_visits += static_cast<std::int64_t>(count);
-    scratch.work.box_tests +=
-        static_cast<std::int64_t>(children_of(scratch.nodes, count, levels[level].size(), before));
+    scratch.work.box_tests += static_cast<std::int64_t>(
+        children_of(std::span(scratch.nodes).first(count), levels[level].size(), before));
     scratch.children.resize(std::max(scratch.children.size(), (count + 1) * fan));
     std::size_t found = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -42,7 +42,7 @@ TOUCHSTONE_TARGET inline void list_blocks(const ImplicitRTree& tree, std::size_t
   const std::size_t parents = descend(bounds, tree, 2, group, scratch);
   scratch.work.node_visits += static_cast<std::int64_t>(parents);
   scratch.work.box_tests += static_cast<std::int64_t>(
-      children_of(scratch.nodes, parents, tree.levels()[1].size(), group * fan));
+      children_of(std::span(scratch.nodes).first(parents), tree.levels()[1].size(), group * fan));
   scratch.blocks.drop(0);
   scratch.blocks.reserve(parents * fan);
   const MutableColumns to = aabb_simd::mutable_columns_of(scratch.blocks);
@@ -54,37 +54,89 @@ TOUCHSTONE_TARGET inline void list_blocks(const ImplicitRTree& tree, std::size_t
   scratch.blocks.advance(count);
 }
 
+// A block of the group, and where its part of a list ends; it begins where that of the block before
+// it ends.
+struct Listed {
+  std::size_t block, end;
+};
+using ListedBlocks = std::array<Listed, fan>;
+
+// Lists in scratch.others, for each block of the group, the later blocks that overlap it; returns
+// the number of the group's blocks.
+TOUCHSTONE_TARGET inline std::size_t list_others(std::size_t group, RTreeScratch& scratch,
+                                                 ListedBlocks& own) {
+  const Columns near = columns_of(scratch.blocks);
+  const std::size_t near_count = scratch.blocks.end();
+  scratch.others.resize(std::max(scratch.others.size(), fan * (near_count + fan)));
+  std::size_t found = 0, n = 0;
+  for (; n < near_count && near.ids[n] < (group + 1) * fan; ++n) {
+    const Row bounds = load_row(near, n);
+    // A pair of blocks is met once, by the earlier one.
+    for (std::size_t i = n + 1; i < near_count; i += fan) {
+      const unsigned bits = overlaps16(bounds, near, i) & first_lanes(near_count - i);
+      found += Lanes::compress(bits, near.ids + i, scratch.others.data() + found);
+    }
+    own[n] = {near.ids[n], found};
+  }
+  return n;
+}
+
+// Writes the pairs of these blocks' boxes with those that are listed as near for each, and, but for
+// the first block if it `is_continued`, with each other.
+TOUCHSTONE_TARGET inline void pair_listed(const ImplicitRTree& tree, std::span<const Listed> near,
+                                          bool is_continued, RTreeScratch& scratch,
+                                          PairBuffer& out) {
+  const Columns boxes = columns_of(tree.boxes());
+  std::size_t hits = 0, from = 0;
+  for (const Listed& listed : near) {
+    const std::size_t first = listed.block * fan;
+    hits = hit_group(boxes, {first, std::min(first + fan, tree.boxes().size())}, !is_continued,
+                     {from, listed.end}, scratch.lists, hits);
+    from = listed.end;
+    is_continued = false;
+  }
+  put_hits(boxes, scratch.lists, hits, out);
+}
+
+// Each stage goes through all blocks of the group before the next one begins, so that it does not
+// wait for results of the last.
 TOUCHSTONE_TARGET void search(const ImplicitRTree& tree, std::size_t group, RTreeScratch& scratch,
                               PairBuffer& out) {
   const Columns boxes = columns_of(tree.boxes());
   const Columns blocks = columns_of(tree.levels()[1]);
   list_blocks(tree, group, scratch);
-  const Columns near = columns_of(scratch.blocks);
-  const std::size_t near_count = scratch.blocks.end();
-  scratch.nodes.resize(std::max(scratch.nodes.size(), near_count + fan));
-
-  for (std::size_t n = 0; n < near_count && near.ids[n] < (group + 1) * fan; ++n) {
-    const std::size_t block = near.ids[n];
-    const IndexRange members{block * fan, std::min((block + 1) * fan, tree.boxes().size())};
-    const Row bounds = load_row(blocks, block);
-    // A pair of blocks is met once, by the earlier one.
-    std::size_t found = 0;
-    for (std::size_t i = n + 1; i < near_count; i += fan) {
-      const unsigned bits = overlaps16(bounds, near, i) & first_lanes(near_count - i);
-      found += Lanes::compress(bits, near.ids + i, scratch.nodes.data() + found);
+  ListedBlocks own, near;
+  const std::size_t count = list_others(group, scratch, own);
+  std::size_t from = 0, listed = 0, at = 0;
+  bool is_continued = false;
+  for (std::size_t n = 0; n < count; ++n) {
+    const Row bounds = load_row(blocks, own[n].block);
+    const std::span others = std::span(scratch.others).subspan(from, own[n].end - from);
+    from = own[n].end;
+    std::size_t near_boxes = 0;
+    for (const std::uint32_t other : others) {
+      const std::size_t first = other * fan;
+      const std::size_t found = Lanes::compress_indices(overlaps16(bounds, boxes, first),
+                                                        static_cast<std::uint32_t>(first),
+                                                        scratch.lists.near.data() + listed);
+      listed += found;
+      near_boxes += found;
+      if (listed < near_at_once) continue;
+      near[n] = {own[n].block, listed};
+      pair_listed(tree, std::span(near).subspan(at, n + 1 - at), is_continued, scratch, out);
+      is_continued = true;
+      at = n;
+      listed = 0;
     }
-    const std::size_t listed = pair_group_with_runs(boxes, members, bounds, scratch.near, out,
-                                                    [&](const auto& visit) TOUCHSTONE_TARGET {
-                                                      for (std::size_t i = 0; i < found; ++i)
-                                                        visit(scratch.nodes[i] * fan, fan);
-                                                    });
-    const std::size_t size = members.last - members.first;
-    const std::size_t pairs = size * (size - 1) / 2 + size * listed;
+    near[n] = {own[n].block, listed};
+    const std::size_t size = std::min(fan, tree.boxes().size() - own[n].block * fan);
+    const std::size_t pairs = size * (size - 1) / 2 + size * near_boxes;
     scratch.work.candidates += static_cast<std::int64_t>(pairs);
-    scratch.work.node_visits += static_cast<std::int64_t>(1 + found);
+    scratch.work.node_visits += static_cast<std::int64_t>(1 + others.size());
     scratch.work.box_tests += static_cast<std::int64_t>(
-        pairs + near_count - n - 1 + children_of(scratch.nodes, found, tree.boxes().size(), 0));
+        pairs + scratch.blocks.end() - n - 1 + children_of(others, tree.boxes().size(), 0));
   }
+  pair_listed(tree, std::span(near).subspan(at, count - at), is_continued, scratch, out);
 }
 
 // Computes the bounds of the 16 boxes below each of these nodes.
@@ -112,7 +164,7 @@ TOUCHSTONE_TARGET std::size_t list(const ImplicitRTree& tree, const Aabb& box,
                              scratch.children.data() + found);
   }
   scratch.work.node_visits += static_cast<std::int64_t>(blocks);
-  scratch.work.box_tests +=
-      static_cast<std::int64_t>(children_of(scratch.nodes, blocks, tree.boxes().size(), 0));
+  scratch.work.box_tests += static_cast<std::int64_t>(
+      children_of(std::span(scratch.nodes).first(blocks), tree.boxes().size(), 0));
   return found;
 }

@@ -14,7 +14,7 @@
 #endif
 
 #define TOUCHSTONE_TARGET_AVX2 __attribute__((target("avx2")))
-#define TOUCHSTONE_TARGET_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
+#define TOUCHSTONE_TARGET_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,bmi2")))
 
 // Threads interact in one way at every level, so ThreadSanitizer checks one level.
 #if defined(__SANITIZE_THREAD__)

@@ -16,9 +16,14 @@
 //                       first numbers, one of their second numbers and so on
 // Simd<float> also handles values in memory, sixteen at a time at every level:
 //   reduce_min16, reduce_max16
+//   meet(a, b, c, d)                   the mask of the lanes in which the intervals [a, b] and
+//                                      [c, d] share a number, and where `within` holds; an interval
+//                                      is a <= b, or empty as [inf, -inf]. Masks in registers of
+//                                      their own are slow to compute, so that level compares once
 //   compress(bits, from, to)           copies the values from[0..15] whose bits are set to the
 //                                      front of `to`, which has room for 16; returns their number
 //   compress_indices(bits, first, to)  does so with the numbers first, first + 1...
+//   fill(x, to)                        writes x to to[0..15]
 //   test(marks, want)                  the bits of those of `width` integers that have all bits of
 //                                      `want`
 // Used by every kernel and algorithm with vector loops. It includes core only.
@@ -112,6 +117,12 @@ struct Simd {
     const Vector a = r[0], b = r[1], c = r[2], d = r[3];
     for (int k = 0; k < 4; ++k) r[k] = Vector{a[k], b[k], c[k], d[k]};
   }
+  static TOUCHSTONE_INLINE Mask meet(Vector a, Vector b, Vector c, Vector d) {
+    return (c <= b) & (a <= d);
+  }
+  static TOUCHSTONE_INLINE Mask meet(Mask within, Vector a, Vector b, Vector c, Vector d) {
+    return within & (c <= b) & (a <= d);
+  }
 
   static Scalar reduce_min16(const Scalar* from) {
     Vector x = load(from);
@@ -136,6 +147,7 @@ struct Simd {
     }
     return count;
   }
+  static void fill(std::uint32_t x, std::uint32_t* to) { std::fill_n(to, 16, x); }
   static unsigned test(const std::uint32_t* marks, std::uint32_t want) {
     unsigned bits = 0;
     for (unsigned lane = 0; lane < width; ++lane) {

@@ -81,6 +81,13 @@ struct Simd<float> {
     r[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(b, d));
     r[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(b, d));
   }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Mask meet(Vector a, Vector b, Vector c, Vector d) {
+    return less_equal(less_equal(c, b), a, d);
+  }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Mask meet(Mask within, Vector a, Vector b, Vector c,
+                                                       Vector d) {
+    return less_equal(less_equal(within, c, b), a, d);
+  }
 
   TOUCHSTONE_TARGET static float reduce_min16(const float* from) {
     const __m256 x = _mm256_min_ps(load(from), load(from + width));
@@ -116,6 +123,11 @@ struct Simd<float> {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), compress8(bits, first));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + count), compress8(bits >> width, second));
     return count + static_cast<std::size_t>(std::popcount(bits >> width));
+  }
+  TOUCHSTONE_TARGET static void fill(std::uint32_t x, std::uint32_t* to) {
+    const __m256i all = _mm256_set1_epi32(static_cast<int>(x));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), all);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + width), all);
   }
   TOUCHSTONE_TARGET static unsigned test(const std::uint32_t* marks, std::uint32_t want) {
     const __m256i wanted = _mm256_set1_epi32(static_cast<int>(want));

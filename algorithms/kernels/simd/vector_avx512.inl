@@ -64,6 +64,13 @@ struct Simd<float> {
     r[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(b, d));
     r[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(b, d));
   }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Mask meet(Vector a, Vector b, Vector c, Vector d) {
+    return less_equal(max(a, c), min(b, d));
+  }
+  TOUCHSTONE_TARGET static TOUCHSTONE_INLINE Mask meet(Mask within, Vector a, Vector b, Vector c,
+                                                       Vector d) {
+    return less_equal(within, max(a, c), min(b, d));
+  }
 
   TOUCHSTONE_TARGET static float reduce_min16(const float* from) {
     return _mm512_reduce_min_ps(load(from));
@@ -71,27 +78,46 @@ struct Simd<float> {
   TOUCHSTONE_TARGET static float reduce_max16(const float* from) {
     return _mm512_reduce_max_ps(load(from));
   }
-  // Compresses in registers and stores whole vectors, because compressing to memory is slow on Zen
-  // 4.
+  // The numbers of the set bits, lowest first, four bits each. Instructions that compress vectors
+  // take several times as long as these two and a permutation.
+  TOUCHSTONE_TARGET static std::uint64_t numbers_of(unsigned bits) {
+    return _pext_u64(0xfedcba9876543210, _pdep_u64(bits, 0x1111111111111111) * 15);
+  }
+  // The first eight of such numbers, each in a lane, below other bits.
+  TOUCHSTONE_TARGET static __m256i spread8(std::uint64_t numbers) {
+    return _mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(numbers)),
+                             _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+  }
+  // The order of lanes that moves those whose bits are set to the front.
+  TOUCHSTONE_TARGET static __m512i order_of(unsigned bits) {
+    const std::uint64_t numbers = numbers_of(bits);
+    return _mm512_inserti64x4(_mm512_castsi256_si512(spread8(numbers)), spread8(numbers >> 32), 1);
+  }
   TOUCHSTONE_TARGET static std::size_t compress(unsigned bits, const float* from, float* to) {
-    _mm512_storeu_ps(to, _mm512_maskz_compress_ps(from_bits(bits), load(from)));
+    _mm512_storeu_ps(to, _mm512_permutexvar_ps(order_of(bits), load(from)));
     return static_cast<std::size_t>(std::popcount(bits));
   }
   TOUCHSTONE_TARGET static std::size_t compress(unsigned bits, const std::uint32_t* from,
                                                 std::uint32_t* to) {
-    return compress16(bits, _mm512_loadu_si512(from), to);
+    _mm512_storeu_si512(to, _mm512_permutexvar_epi32(order_of(bits), _mm512_loadu_si512(from)));
+    return static_cast<std::size_t>(std::popcount(bits));
   }
   TOUCHSTONE_TARGET static std::size_t compress_indices(unsigned bits, std::uint32_t first,
                                                         std::uint32_t* to) {
-    const __m512i numbers =
-        _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)),
-                         _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
-    return compress16(bits, numbers, to);
+    const std::uint64_t numbers = numbers_of(bits);
+    const auto count = static_cast<std::size_t>(std::popcount(bits));
+    store_numbers(first, spread8(numbers), to);
+    if (count > 8) store_numbers(first, spread8(numbers >> 32), to + 8);
+    return count;
   }
-  TOUCHSTONE_TARGET static std::size_t compress16(unsigned bits, __m512i values,
-                                                  std::uint32_t* to) {
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(from_bits(bits), values));
-    return static_cast<std::size_t>(std::popcount(bits));
+  TOUCHSTONE_TARGET static void store_numbers(std::uint32_t first, __m256i numbers,
+                                              std::uint32_t* to) {
+    const __m256i lanes = _mm256_and_si256(numbers, _mm256_set1_epi32(15));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(first))));
+  }
+  TOUCHSTONE_TARGET static void fill(std::uint32_t x, std::uint32_t* to) {
+    _mm512_storeu_si512(to, _mm512_set1_epi32(static_cast<int>(x)));
   }
   TOUCHSTONE_TARGET static unsigned test(const std::uint32_t* marks, std::uint32_t want) {
     const __m512i wanted = _mm512_set1_epi32(static_cast<int>(want));

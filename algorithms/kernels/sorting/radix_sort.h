@@ -27,13 +27,21 @@ class RadixSort {
     const int widest = items.size() < 4096 ? 8 : 11;
     const int passes = (bits + widest - 1) / widest;
     const int width = (bits + passes - 1) / passes;
+    const std::size_t mask = (std::size_t{1} << width) - 1;
+    // One thread needs a row for each pass and more need one for each block: what is held does not
+    // depend on how many there are.
+    const std::size_t rows = std::max(static_cast<std::size_t>(passes),
+                                      block_count(items.size(), block_size_of(items.size())) + 1);
+    places_.resize(rows * (mask + 1));
     scratch_.resize(items.size());
+    const auto digit = [&](const Item& item, int pass) {
+      return static_cast<std::size_t>(key(item) >> pass * width) & mask;
+    };
+    if (executor.width() == 1 || items.size() <= least_block) {
+      return sort_alone(items, passes, mask + 1, digit);
+    }
     for (int pass = 0; pass < passes; ++pass) {
-      const int shift = pass * width;
-      const std::size_t mask = (std::size_t{1} << width) - 1;
-      scatter(executor, items, mask + 1, [&](const Item& item) {
-        return static_cast<std::size_t>(key(item) >> shift) & mask;
-      });
+      scatter(executor, items, mask + 1, [&](const Item& item) { return digit(item, pass); });
     }
   }
 
@@ -42,10 +50,39 @@ class RadixSort {
   }
 
  private:
+  static constexpr std::size_t least_block = 2048;
+
   // Sixteen blocks of one size spread evenly over 2, 4 or 8 threads. Smaller blocks would not pay
   // for their histograms; larger ones leave the cache.
   static std::size_t block_size_of(std::size_t items) {
-    return std::clamp(block_count(items, 16), std::size_t{2048}, std::size_t{8192});
+    return std::clamp(block_count(items, 16), least_block, std::size_t{8192});
+  }
+
+  // One thread counts the digits of two passes at once.
+  template <class Digit>
+  void sort_alone(std::vector<Item>& items, int passes, std::size_t digits, const Digit& digit) {
+    std::fill_n(places_.begin(), static_cast<std::size_t>(passes) * digits, 0);
+    const auto row = [&](int pass) { return &places_[static_cast<std::size_t>(pass) * digits]; };
+    for (int pass = 0; pass < passes; pass += 2) {
+      std::uint32_t* const counts = row(pass);
+      if (pass + 1 == passes) {
+        for (const Item& item : items) ++counts[digit(item, pass)];
+      } else {
+        for (const Item& item : items) {
+          ++counts[digit(item, pass)];
+          ++counts[digits + digit(item, pass + 1)];
+        }
+      }
+    }
+    for (int pass = 0; pass < passes; ++pass) {
+      std::uint32_t* const next = row(pass);
+      if (next[digit(items[0], pass)] == items.size()) continue;  // nothing moves
+      std::uint32_t place = 0;
+      for (std::size_t d = 0; d < digits; ++d) place += std::exchange(next[d], place);
+      Item* const to = scratch_.data();
+      for (const Item& item : items) to[next[digit(item, pass)]++] = item;
+      items.swap(scratch_);
+    }
   }
 
   template <class Digit>
@@ -53,7 +90,6 @@ class RadixSort {
                const Digit& digit) {
     const std::size_t block_size = block_size_of(items.size());
     const std::size_t blocks = block_count(items.size(), block_size);
-    places_.resize((blocks + 1) * digits);
     for_each_block(executor, items.size(), block_size,
                    [&](std::size_t block, std::size_t first, std::size_t last) {
                      std::uint32_t* counts = &places_[block * digits];
@@ -91,7 +127,8 @@ class RadixSort {
   }
 
   std::vector<Item> scratch_;
-  // [block][digit]: first the count, then the place of the next item. The last row sums all blocks.
+  // [block or pass][digit]: first the count, then the place of the next item. Behind the blocks' rows
+  // there is one for the sum of them.
   std::vector<std::uint32_t> places_;
 };
 

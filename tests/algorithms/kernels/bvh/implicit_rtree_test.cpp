@@ -61,6 +61,54 @@ TEST(ImplicitRTree, ListsWhatABoxOverlaps) {
   }
 }
 
+// Sparse boxes; some of which a group has more near ones than are tested at once; and those that all
+// overlap each other.
+TEST(ImplicitRTree, PairsAreThoseThatOverlapInOneOrderAtEveryLevel) {
+  Executor executor(1);
+  for (const std::size_t count : {1u, 15u, 17u, 256u, 257u, 1500u}) {
+    for (const float side : {0.5f, 5.0f, 0.0f}) {
+      std::vector<Aabb> boxes = random_boxes(count, side);
+      if (side == 0) std::ranges::fill(boxes, Aabb{{0, 0, 0}, {1, 1, 1}});
+      for (std::size_t i = 40; i < count; i += 41) boxes[i] = Aabb::empty();
+      ImplicitRTree tree;
+      tree.boxes().resize(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        tree.boxes().set(i, boxes[i], static_cast<std::uint32_t>(i));
+      }
+      tree.fit(executor);
+      std::vector<IndexPair> expected;
+      for (std::uint32_t a = 0; a < count; ++a) {
+        for (std::uint32_t b = a + 1; b < count; ++b) {
+          if (overlap(boxes[a], boxes[b])) expected.push_back({a, b});
+        }
+      }
+      if (count > 200) {
+        EXPECT_FALSE(expected.empty());
+      }
+      std::vector<IndexPair> first;
+      std::int64_t first_tests = 0;
+      for (const Isa level : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+        limit_isa(level);
+        PairBuffer out;
+        RTreeScratch scratch;
+        for (std::size_t group = 0; group < tree.groups(); ++group) {
+          pair_group(tree, group, scratch, out);
+        }
+        std::vector<IndexPair> pairs(out.pairs().begin(), out.pairs().end());
+        if (level == Isa::baseline) {
+          first = pairs;
+          first_tests = scratch.work.box_tests;
+        }
+        EXPECT_EQ(pairs, first);
+        EXPECT_EQ(scratch.work.box_tests, first_tests);
+        std::ranges::sort(pairs);
+        EXPECT_TRUE(pairs == expected) << count << " boxes, side " << side;
+      }
+      limit_isa(isa_of_machine());
+    }
+  }
+}
+
 TEST(PairTests, AgreeWithOverlap) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   constexpr float tiny = std::numeric_limits<float>::denorm_min();

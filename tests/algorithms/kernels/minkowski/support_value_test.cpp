@@ -8,6 +8,8 @@
 namespace touchstone {
 namespace {
 
+using namespace reference;
+
 TEST(SupportValue, IsThatOfTheSupportPoint) {
   base::Random random(3);
   const std::array shapes = {make_sphere(0.5),
