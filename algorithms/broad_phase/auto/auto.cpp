@@ -14,7 +14,7 @@
 //             how many end points they pass (endpoint_passes.cpp). This and the counts say what the
 //             dynamic BVH and incremental sweep and prune would cost (frame_costs.cpp). When the one
 //             in charge has lost a part of what the other's build costs, that one takes over
-//             (looks.cpp).
+//             (looks.cpp). Where only pairs of some bodies are asked for, these stand for all.
 // Departs: it decides by counts and not by times, so that the order of the pairs does not depend on
 //          the machine, its load or the executor's width. Each change of mind doubles the number of
 //          frames that the next one takes, or what must be lost for it, until the next build.
@@ -87,8 +87,13 @@ class Auto final : public BroadPhase {
   }
 
   Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) override {
+    const Status status = active_->find_pairs_of(bodies, sink);
     ++answers_.tally.selections;
-    return active_->find_pairs_of(bodies, sink);
+    if (!bodies.empty()) {
+      answers_.asked_bodies = bodies.size();
+      answers_.found_pairs = sink.size();
+    }
+    return status;
   }
 
   Status find_changes(PairSink& began, PairSink& ended) override {

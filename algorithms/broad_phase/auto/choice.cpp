@@ -51,7 +51,7 @@ bool Choice::look(const FrameChange& change, Answers& answers) {
   FrameCounts counts;
   counts.bodies = static_cast<double>(bodies_);
   counts.moved = static_cast<double>(change.moved.size());
-  counts.pairs = static_cast<double>(answers.pairs);
+  counts.pairs = answers.pairs_among(counts.bodies);
   counts.changes = static_cast<double>(answers.changes);
   if (!looks_.look(change, candidate_, counts, answers.tally)) return false;
   candidate_ = candidate_ == Candidate::dynamic_bvh ? Candidate::incremental_sweep_and_prune

@@ -17,6 +17,17 @@ struct Answers {
   bool is_known = false;     // the number of the pairs is
   std::size_t pairs = 0;     // their number
   std::size_t changes = 0;   // number of those that began and ended, if these were asked for
+  // How many bodies find_pairs_of was last asked about, if any, and how many pairs it found.
+  std::size_t asked_bodies = 0, found_pairs = 0;
+
+  bool tell_pairs() const { return is_known || asked_bodies > 0; }
+  // Returns the number of the pairs among `bodies` bodies. Where it is not known, those asked about
+  // are taken to be in as many pairs as others, and each pair to be of one such body: so it is where
+  // all rest on one ground, and elsewhere it is an upper bound.
+  double pairs_among(double bodies) const {
+    if (is_known || asked_bodies == 0) return static_cast<double>(pairs);
+    return static_cast<double>(found_pairs) * bodies / static_cast<double>(asked_bodies);
+  }
 };
 
 class Choice {
@@ -43,7 +54,7 @@ class Choice {
       return update_slowly(change, answers);
     }
     wanted_for_ = 0;
-    return answers.is_known && looks_.is_due() && look(change, answers);
+    return answers.tell_pairs() && looks_.is_due() && look(change, answers);
   }
 
   std::size_t held_bytes() const { return looks_.held_bytes(); }

@@ -167,7 +167,7 @@ TEST_P(AutomaticChoice, IsMadeLessAndLessOften) {
 // End points that pass few others want incremental sweep and prune, and those that pass many the
 // dynamic BVH.
 TEST_P(AutomaticChoice, FollowsHowFarBodiesMove) {
-  build(600, 0.2f);
+  build(600, 0.15f);
   play(500, 0.02f);
   EXPECT_EQ(chosen(), "incremental-sweep-and-prune");
   play(400, 0.02f, 0.3f);

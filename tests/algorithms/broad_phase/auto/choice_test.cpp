@@ -79,6 +79,24 @@ TEST_F(ChoiceByCounts, TakesPairsOfSomeBodiesFromTheDynamicBvh) {
   EXPECT_GE(frames_until(bvh, 5'000, 1e-5f, 1), 0);
 }
 
+// Where no more is known than the pairs of those that move, few of them want incremental sweep and
+// prune, and many the dynamic BVH.
+TEST_F(ChoiceByCounts, TakesPairsOfSomeBodiesForThoseOfAll) {
+  for (const std::size_t found : {10, 400}) {
+    SCOPED_TRACE(found);
+    start(10'000, 100);
+    answers_.is_known = false;
+    answers_.asked_bodies = 100;
+    answers_.found_pairs = found;
+    EXPECT_EQ(answers_.pairs_among(10'000), 100.0 * static_cast<double>(found));
+    asks_.selections = 1;
+    EXPECT_EQ(frames_until(sap, 3'000, 1e-5f, 1) > 0, found == 10);
+    EXPECT_EQ(choice_.candidate(), found == 10 ? sap : bvh);
+  }
+  answers_.is_known = true;
+  EXPECT_EQ(answers_.pairs_among(10'000), 30'000);
+}
+
 // The costs are not known without the number of the pairs, and were not measured for more bodies.
 TEST_F(ChoiceByCounts, StaysWhereCostsAreNotKnown) {
   start(4'000, 40);
