@@ -184,7 +184,10 @@ void ClosedFormCast::cast_ball(const Shape& a, const Pose& pose_a, const Motion&
     }
   }
   if (away > 0) outcome.normal = -normal;
-  outcome.point = pose_a.translation + outcome.toi * motion_a.displacement - a.radius * normal;
+  // Bodies that overlap at the start share a point that is as deep in either, in proportion to their radii.
+  const double deep = away < path.radius ? away / path.radius : 1;
+  outcome.point =
+      pose_a.translation + outcome.toi * motion_a.displacement - deep * a.radius * normal;
 }
 
 // Finds the hit, or a miss that the first plane could not prove.

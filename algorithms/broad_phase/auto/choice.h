@@ -23,7 +23,7 @@ struct Answers {
   bool tell_pairs() const { return is_known || asked_bodies > 0; }
   // Returns the number of the pairs among `bodies` bodies. Where it is not known, those asked about
   // are taken to be in as many pairs as others, and each pair to be of one such body: so it is where
-  // all rest on one ground, and elsewhere it is an upper bound.
+  // all rest on one ground, and elsewhere it is up to twice as many.
   double pairs_among(double bodies) const {
     if (is_known || asked_bodies == 0) return static_cast<double>(pairs);
     return static_cast<double>(found_pairs) * bodies / static_cast<double>(asked_bodies);

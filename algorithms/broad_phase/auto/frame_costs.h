@@ -25,7 +25,7 @@ struct MoverMotion {
 struct FrameCounts {
   double bodies = 0;
   double moved = 0;
-  double pairs = 0;    // of all bodies, or an upper bound
+  double pairs = 0;    // of all bodies, or an estimate
   double changes = 0;  // pairs that began and ended, if these are asked for
   // In the mean over some frames: how often all pairs are asked for, and those of some bodies; how
   // many bodies come or go, and the share of the frames in which any does.

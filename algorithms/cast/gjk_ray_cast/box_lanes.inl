@@ -126,8 +126,11 @@ struct FindTouch {
     using Lanes = Simd<double>;
     const Vector zero = Lanes::broadcast(0);
     const Vector start = dot<double>(axis, boxes.offset);
-    const Vector apart = (Lanes::abs(start) - reach) / length_of(axis);
-    const auto better = both(counts, Lanes::less(gap, apart));
+    // A short axis, of edges that are nearly parallel, tells less than the tolerance.
+    const Vector length = length_of(axis);
+    const Vector apart = (Lanes::abs(start) - reach) / length;
+    const auto better =
+        both(both(counts, Lanes::less(Lanes::broadcast(1e-3), length)), Lanes::less(gap, apart));
     gap = Lanes::select(better, apart, gap);
     normal = select<double>(
         better, select<double>(Lanes::less(start, zero), {-axis.x, -axis.y, -axis.z}, axis),

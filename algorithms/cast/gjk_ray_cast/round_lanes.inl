@@ -101,10 +101,10 @@ TOUCHSTONE_TARGET inline void cast_lanes(const RoundLane* pairs, LaneTimes* time
     look = time;
   }
 
-  // Bodies that overlap at time 0, and whose axes do not meet.
-  const Mask overlaps =
-      both(both(hit, Lanes::less_equal(time, zero)),
-           both(Lanes::less(zero, distance), Lanes::less(distance + error, radius)));
+  // Bodies that overlap at time 0, and whose axes are further apart than rounding.
+  const Mask overlaps = both(both(hit, Lanes::less_equal(time, zero)),
+                             both(Lanes::less(Lanes::broadcast(0x1p10) * error, distance),
+                                  Lanes::less(distance + error, radius)));
   unsigned hits = Lanes::to_bits(overlaps);
   Vector upper = Lanes::select(overlaps, zero, Lanes::broadcast(2));
   // Otherwise, a little later the bodies are surely nearer than the radii.
@@ -122,7 +122,9 @@ TOUCHSTONE_TARGET inline void cast_lanes(const RoundLane* pairs, LaneTimes* time
     step = step * Lanes::broadcast(16);
   }
   const unsigned misses = Lanes::to_bits(miss);
-  const Vector3<double> on_a = moved<double>(scaled<double>(place, shape.p), radius_a, normal);
+  // In the ball of either body as deep as in the other's, in proportion to their radii.
+  const Vector deep_in_a = Lanes::min(distance / radius, one) * radius_a;
+  const Vector3<double> on_a = moved<double>(scaled<double>(place, shape.p), deep_in_a, normal);
   alignas(64) double out[8][width];
   const Vector results[8] = {time, upper, normal.x, normal.y, normal.z, on_a.x, on_a.y, on_a.z};
   for (std::size_t k = 0; k < 8; ++k) Lanes::store(out[k], results[k]);

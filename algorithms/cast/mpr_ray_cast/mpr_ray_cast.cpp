@@ -14,7 +14,7 @@
 //          5. Prove contact a little later, for the upper end of the bracket (motion/linear).
 // Departs: the paper's ray leaves the difference; this one enters it. Time grows only through planes whose gap is
 //          proven beyond rounding (MovingPair::rounding), as in gjk-ray-cast. GJK searches instead where no portal
-//          closes or it has no area, where the bodies are in contact at the start, and where the path is below 1e-6 of
+//          closes or it has no area, where the bodies overlap at the start, and where the path is below 1e-6 of
 //          the pair's unit. mpr-ray-cast-lanes takes the same steps for pairs of hulls, one in each lane of vectors
 //          (portal_lanes), each hull scanned by all of a vector; a lane that has ended takes the next pair.
 // Fails:   as gjk-ray-cast.
@@ -116,13 +116,9 @@ PathEnd MprRayCast::end_of(const PortalQuery& query, const PortalAnswer& answer,
   if (answer.end == PortalEnd::miss) return PathEnd::miss;
   pair.move_to(answer.time, found.simplex);
   if (answer.end == PortalEnd::closed) {
-    std::array<Vec3d, 3> places;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const DifferencePoint<double> point = pair.of_corners(answer.corners[k]);
-      found.simplex.points[k] = point;
-      places[k] = point.a - point.b - pair.start();
-    }
-    if (meet_portal(pair, answer.along, places, query.tolerance, found) == PathEnd::hit)
+    for (std::size_t k = 0; k < 3; ++k)
+      found.simplex.points[k] = pair.of_corners(answer.corners[k]);
+    if (meet_portal(pair, answer.along, answer.places, query.tolerance, found) == PathEnd::hit)
       return PathEnd::hit;
   }
   found.simplex.size = 0;

@@ -62,17 +62,19 @@ double lean_of(const MovingPair& pair) {
 Vec3d portal_normal(const std::array<Vec3d, 3>& places) {
   const Vec3d cross = (places[1] - places[0]).cross(places[2] - places[0]);
   const double length = cross.norm();
-  return length > 0 ? Vec3d(cross / length) : Vec3d::Zero();
+  return length > least_area ? Vec3d(cross / length) : Vec3d::Zero();
 }
 
 PathEnd meet_portal(MovingPair& pair, const Vec3d& along, const std::array<Vec3d, 3>& places,
                     double tolerance, PathContact& found) {
-  const double weights[3] = {side(places[1], places[2], along), side(places[2], places[0], along),
-                             side(places[0], places[1], along)};
+  // Rounding may put the path a little outside of the portal; the weights are those of a point in it.
+  const double weights[3] = {std::max(side(places[1], places[2], along), 0.0),
+                             std::max(side(places[2], places[0], along), 0.0),
+                             std::max(side(places[0], places[1], along), 0.0)};
   const double sum = weights[0] + weights[1] + weights[2];
   if (!(sum > 0)) return PathEnd::open;
   found.simplex.size = 3;
-  for (std::size_t k = 0; k < 3; ++k) found.simplex.weights[k] = std::max(weights[k] / sum, 0.0);
+  for (std::size_t k = 0; k < 3; ++k) found.simplex.weights[k] = weights[k] / sum;
   pair.move_to(pair.time(), found.simplex);
   found.nearest = {};
   found.nearest.distance = weighted_mean(found.simplex).difference.norm();
@@ -163,7 +165,7 @@ auto PortalSearch<CoreOfA, CoreOfB>::refine(double tolerance, int most_iteration
     const Corner &p = portal_[0], &q = portal_[1], &r = portal_[2];
     const Vec3d cross = (q.place - p.place).cross(r.place - p.place);
     const double length = cross.norm();
-    if (!(length > 0)) return Step::open;
+    if (!(length > least_area)) return Step::open;
     const Vec3d normal = cross / length;
     Corner& next = portal_.free();
     if (take(normal, next)) return Step::miss;

@@ -9,6 +9,8 @@ namespace touchstone {
 
 // The shortest path, in the pair's unit, whose direction doubles tell well. Shorter ones are left to GJK.
 inline constexpr double least_path = 1e-6;
+// Twice the area of the least portal, in that unit, whose normal has unit length: squares of lesser ones underflow.
+inline constexpr double least_area = 1e-150;
 
 // How far directions lean to the entry while a portal is looked for.
 double lean_of(const MovingPair& pair);

@@ -13,7 +13,7 @@ struct ContactLanes {
 
 TOUCHSTONE_TARGET inline void load_contact(const PortalQuery& query, PortalAnswer& answer,
                                            std::size_t lane, ContactLanes& to) {
-  // Bodies that touch at time 0 were parted by no plane, and touch along the portal's.
+  // Bodies that touch at time 0 were parted by no plane, and touch along the portal's, up to two tolerances deep.
   if (!(answer.time > 0)) answer.plane = portal_normal(answer.places);
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t corner = 0; corner < 3; ++corner)

@@ -43,7 +43,7 @@ struct NewCorners {
 };
 
 // The lanes whose support planes part the bodies to the end. In the others time grows to where they close. As in
-// part_by_plane, but for the direction's length, which has one more rounding: 4 u of the 15 u that
+// part_by_plane, but for the direction's length, which has one more rounding: 8 u of the 15 u that
 // MovingPair::rounding has to spare.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned take_corners(PortalLanes& lanes, NewCorners& found) {
   using Lanes = Simd<double>;
@@ -65,7 +65,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned take_corners(PortalLanes& lanes, Ne
   const Vector gap = -dot<double>(direction, apart), speed = dot<double>(direction, velocity);
   const Mask open = both(Lanes::less(rounding, gap), Lanes::from_bits(lanes.active));
   const Mask miss = both(open, Lanes::less(rounding, gap + (one - time) * speed));
-  const Vector closes = Lanes::min(time + (gap - rounding) / -speed, one);
+  // The order keeps NaN, which then is not later.
+  const Vector closes = Lanes::min(one, time + (gap - rounding) / -speed);
   const Mask grows = both(without(open, miss), Lanes::less(time, closes));
   Lanes::store(lanes.time, Lanes::select(grows, closes, time));
   store_three(select<double>(grows, direction, three_rows(lanes.plane)), lanes.plane);
@@ -190,7 +191,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_through(PortalLanes& lanes, const 
   const Vector3<double> normal =
       cross<double>(difference<double>(p[1], p[0]), difference<double>(p[2], p[0]));
   const auto length = length_of(normal);
-  const unsigned has_length = Lanes::to_bits(Lanes::less(Lanes::broadcast(0), length));
+  const unsigned has_length = Lanes::to_bits(Lanes::less(Lanes::broadcast(least_area), length));
   ends.open |= lanes.refining & ~ends.closed & ~has_length;
   store_three(select<double>(Lanes::from_bits(lanes.refining),
                              scaled<double>(Lanes::broadcast(1) / length, normal),
@@ -202,7 +203,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_through(PortalLanes& lanes, const 
 TOUCHSTONE_TARGET inline unsigned step_lanes(PortalLanes& lanes, int most_iterations,
                                              LaneEnds& ends) {
   using Lanes = Simd<double>;
-  constexpr int most_corners = 26;
+  constexpr int most_corners = 26;  // support points without a portal; few searches need ten
   NewCorners found;
   const unsigned misses = take_corners(lanes, found);
   LanePortal portal;

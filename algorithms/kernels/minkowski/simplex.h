@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "algorithms/kernels/minkowski/support.h"
@@ -46,6 +47,22 @@ DifferencePoint<Scalar> weighted_mean(const Simplex<Scalar>& simplex) {
     mean.b += simplex.weights[i] * simplex.points[i].b;
   }
   return mean;
+}
+
+// The mean of a tetrahedron's points at the origin, which is inside: a point that both bodies have, so that `a` and
+// `b` differ by rounding and by the origin's offset. If the tetrahedron is flat, any of its points.
+template <class Scalar>
+DifferencePoint<Scalar> mean_at_origin(Simplex<Scalar> simplex) {
+  const auto& p = simplex.points;
+  Scalar sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto corner = [&](std::size_t i) { return p[(k + i) % 4].difference; };
+    simplex.weights[k] = std::abs(corner(1).dot(corner(2).cross(corner(3))));
+    sum += simplex.weights[k];
+  }
+  if (!(sum > 0)) return p[0];
+  for (Scalar& weight : simplex.weights) weight /= sum;
+  return weighted_mean(simplex);
 }
 
 // Reduces the simplex to the vertices of the feature that contains the nearest point. If the origin

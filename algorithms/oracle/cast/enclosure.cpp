@@ -116,13 +116,16 @@ Pose rounded_pose(const EnclosedBody& body, const EnclosedBody& from, double tim
 
 namespace {
 
-// Writes where the bodies touch at the time of the hit, and the normal there if it is not known yet.
-void write_touch(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b,
+// Writes where the bodies touch at the time of the hit, and the normal there if it is not known yet. Those that are
+// deeper in each other than the tolerance at the start touch nowhere: their deepest points need not be in both.
+void write_touch(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, double tolerance,
                  CastOutcome& outcome) {
   const Pose pose_a = rounded_pose(a, a, outcome.toi), pose_b = rounded_pose(b, a, outcome.toi);
   Outcome touch;
   answer(oracle, {*a.solid, pose_a}, {*b.solid, pose_b}, Task::signed_distance, touch);
-  outcome.point = touch.witness_a + a.pose->translation + outcome.toi * a.motion->displacement;
+  if (!(touch.distance < -tolerance)) {
+    outcome.point = touch.witness_a + a.pose->translation + outcome.toi * a.motion->displacement;
+  }
   const double length = touch.normal.norm();
   if (outcome.normal.hasNaN() && length > 0) outcome.normal = touch.normal / length;
 }
@@ -144,7 +147,7 @@ void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, doubl
   if (start == Answer::overlapping || start == Answer::touching) {
     outcome.answer = CastAnswer::hit;
     outcome.toi = outcome.lower = outcome.upper = 0;
-    write_touch(oracle, a, b, outcome);
+    write_touch(oracle, a, b, tolerance, outcome);
     return;
   }
   double time = 0, tried = std::numeric_limits<double>::infinity();
@@ -170,7 +173,7 @@ void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, doubl
         outcome.toi = time;
         outcome.upper = later;
         if (!bounds.normal.isZero(0)) outcome.normal = bounds.normal;
-        write_touch(oracle, a, b, outcome);
+        write_touch(oracle, a, b, tolerance, outcome);
         return;
       }
       if (!(later < 1)) break;

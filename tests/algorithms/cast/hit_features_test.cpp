@@ -62,6 +62,32 @@ TEST_P(HitFeatures, OfBodiesThatMoveWithoutTurning) {
   EXPECT_LT(counts.unknown, counts.hits);
 }
 
+// At time 0 a point may be unknown. One that is told is in both bodies, however deep and unlike they are.
+TEST_P(HitFeatures, OfBodiesThatOverlapAtTheStart) {
+  Random random(54);
+  int told = 0;
+  for_each_pair_of_kinds([&](ShapeKind a, ShapeKind b) {
+    for (int i = 0; i < drawn(6, 2); ++i) {
+      MovingPairCase c = meeting(a, b, ContactFeature::vertices, 0.5, 2, random);
+      // The bodies' origins come near each other, or all but meet.
+      c.pose_b.translation = c.pose_a.translation + random.vector(i % 2 == 0 ? 0.3 : 1e-3);
+      if (i % 3 == 0) {
+        c.a.radius *= 4;
+        c.a.half_extents *= 4;
+        c.a.radii *= 4;
+      }
+      if (!takes(c)) continue;
+      const CastOutcome outcome = solve(entry(), c);
+      const bool is_at_start = outcome.answer == CastAnswer::hit && !(outcome.toi > 0);
+      if (!is_at_start || outcome.status != Status::ok || outcome.point.hasNaN()) continue;
+      ++told;
+      EXPECT_LE(away(c.a, c.pose_a, c.motion_a, 0, outcome.point), 1e-6) << c.what << ' ' << i;
+      EXPECT_LE(away(c.b, c.pose_b, c.motion_b, 0, outcome.point), 1e-6) << c.what << ' ' << i;
+    }
+  });
+  EXPECT_GT(told, 0);
+}
+
 TEST_P(HitFeatures, OfBodiesThatTurn) {
   if (!entry().rotation) return;
   constexpr std::array kinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box,

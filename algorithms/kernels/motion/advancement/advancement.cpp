@@ -117,10 +117,11 @@ Advancement AdvancementSearch::look_by_gjk(SupportPair<double>& pair, double tim
   Simplex<double> simplex = found.simplex;
   NearestPoint<double> nearest = found.nearest;
   if (simplex.size == 4) {
-    simplex.size = 3;  // an inner point has no weights
+    simplex.size = 3;
     nearest = reduce_to_nearest(simplex);
   }
-  const DifferencePoint<double> mean = weighted_mean(simplex);
+  const DifferencePoint<double> mean =
+      found.nearest.inside ? mean_at_origin(found.simplex) : weighted_mean(simplex);
   return hit(pair, {time, mean.a, mean.b - pair.centre_b()},
              found.nearest.inside ? Vec3d(Vec3d::Zero()) : Vec3d(-nearest.direction));
 }

@@ -176,11 +176,12 @@ void LinearCast::finish(Begun& begun, PathEnd end, PathContact& found, CastOutco
 
   Simplex<double> feature = found.simplex;
   if (found.nearest.inside) {
-    // Weights of an inner point are not known; a face's are good enough for the witness.
+    // The proof of contact goes on from a face.
     feature.size = 3;
     reduce_to_nearest(feature);
   }
-  const DifferencePoint<double> witness = weighted_mean(feature);
+  const DifferencePoint<double> witness =
+      found.nearest.inside ? mean_at_origin(found.simplex) : weighted_mean(feature);
   write_hit(begun, pair.time(), pair.between_balls(witness), outcome);
 
   pair.set_inner_radius(a.inner_radius() + b.inner_radius());
