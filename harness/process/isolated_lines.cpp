@@ -26,7 +26,11 @@ class TemporaryFile {
     if (file_ == nullptr) throw_error("temporary file");
   }
 
-  std::int64_t end() const { return lseek(descriptor(), 0, SEEK_END); }
+  std::int64_t end() const {
+    const std::int64_t at = lseek(descriptor(), 0, SEEK_END);
+    if (at < 0) throw_error("temporary file");
+    return at;
+  }
 
   void write(std::string_view text, std::int64_t at) const {
     while (!text.empty()) {
@@ -40,6 +44,7 @@ class TemporaryFile {
   std::string read(std::int64_t at, std::size_t size) const {
     std::string text(size, '\0');
     for (std::size_t done = 0; done < size;) {
+      errno = EIO;  // a file that is shorter than it was sets none
       const auto some = pread(descriptor(), text.data() + done, size - done,
                               at + static_cast<std::int64_t>(done));
       if (some <= 0) throw_error("temporary file");

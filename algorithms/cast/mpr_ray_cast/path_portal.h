@@ -19,8 +19,9 @@ double lean_of(const MovingPair& pair);
 Vec3d portal_normal(const std::array<Vec3d, 3>& places);
 
 // Moves the pair to where the path meets a closed portal, and returns `hit` if the portal is nearer there than the
-// tolerance: at time 0, where no plane parted them, the bodies touch. `along` is the unit direction of the path, `places` are the portal's corners
-// relative to the path, and the first three points of `found.simplex` are these corners.
+// tolerance: at time 0, where no plane parted them, the bodies touch. `along` is the unit direction of the path,
+// `places` are the portal's corners relative to the path, and the first three points of `found.simplex` are these
+// corners.
 PathEnd meet_portal(MovingPair& pair, const Vec3d& along, const std::array<Vec3d, 3>& places,
                     double tolerance, PathContact& found);
 

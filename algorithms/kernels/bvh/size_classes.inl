@@ -27,7 +27,7 @@ TOUCHSTONE_TARGET inline void longest_sides(const BoxLanes& box, Integers& bits)
 
 // Bounds every stride-th box's centre, and counts the boxes by the upper bits of their sides.
 TOUCHSTONE_TARGET void sample(std::span<const Aabb> boxes, std::size_t stride, CentreRegion& region,
-                              std::array<std::uint32_t, 512>& members) {
+                              std::array<std::uint32_t, SizeSample::magnitudes>& members) {
   Lanes::Vector low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
     low[axis] = Lanes::broadcast(CentreRegion::inf);

@@ -29,7 +29,7 @@ void SavedCertificates::add_each(std::size_t items, double seconds,
   const process::LinesReport report = process::isolated_lines(items, limits, setup, stream_);
   count_ += report.lines;
   if (!report.failures.empty() && report.failures.back().in_setup) {
-    throw base::InputError(file_, 0, "nothing can be proven: " + report.failures.back().reason());
+    throw base::InputError(file_, 0, "no more can be proven: " + report.failures.back().reason());
   }
   print_failures("certificates", report.failures, name_of);
 }
