@@ -30,10 +30,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void store_three(const Vector3<double>& v,
 }
 
 // The path of as many queries as there are lanes, or fewer: its direction, and the normal at which it enters a ball
-// that holds the difference, or passes it. Returns the queries whose paths are long enough.
+// that holds the difference, or passes it.
 struct LanePaths {
   alignas(64) double along[3][Simd<double>::width], entry[3][Simd<double>::width];
-  unsigned usable;
+  unsigned usable;  // a bit for each query whose path is long enough
 };
 
 TOUCHSTONE_TARGET inline void find_paths(std::span<const PortalQuery> queries, LanePaths& paths) {

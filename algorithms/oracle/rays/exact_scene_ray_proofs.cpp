@@ -42,7 +42,10 @@ SceneRayProver::SceneRayProver(std::vector<PlacedBody> bodies)
   for (const auto& box : boxes_) {
     if (box) reach_ = std::max(reach_, reach_of(*box));
   }
-  for (const PlacedBody& placed : bodies_) solver_->bodies.push_back({placed.body, placed.pose});
+  for (const PlacedBody& placed : bodies_) {
+    solver_->bodies.push_back({placed.body, placed.pose});
+    has_rounded_ = has_rounded_ || has_rounded_places(placed.body);
+  }
   solver_->cast->bind(solver_->bodies);
 }
 
@@ -57,13 +60,11 @@ BodyAtRays& SceneRayProver::at(std::uint32_t body) {
 std::optional<SceneRayCertificate> SceneRayProver::prove(const Vec3d& origin,
                                                          const Vec3d& direction, double t_max,
                                                          bool is_first) {
+  if (has_rounded_) return {};
   const Ray ray = {origin, direction, t_max};
   SceneRayHit hit;
   solver_->cast->cast(is_first ? RayTask::closest : RayTask::any, {&ray, 1}, {&hit, 1});
   if (hit.status == Status::degenerate) return {};
-  if (std::ranges::any_of(bodies_,
-                          [](const PlacedBody& placed) { return has_rounded_places(placed.body); }))
-    return {};
   SceneRayCertificate certificate;
   certificate.origin = origin;
   certificate.direction = direction;

@@ -38,6 +38,7 @@ class SceneRayProver {
   std::vector<std::optional<RationalBox>> boxes_;  // in the world
   std::vector<std::uint32_t> order_;
   PartTree tree_;
+  bool has_rounded_ = false;                     // places of parts of any body were rounded
   double reach_ = 0;                             // of the boxes
   std::vector<std::unique_ptr<BodyAtRays>> at_;  // those that were needed
   std::unique_ptr<Solver> solver_;

@@ -1,6 +1,8 @@
 // Scenes at which rays are proven, and what the exact cast says about these rays, for tests.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <limits>
 #include <vector>
 
@@ -30,6 +32,17 @@ inline SceneRayHit solved(const std::vector<SceneBody>& bodies,
   SceneRayHit hit;
   cast->cast(of.is_first ? RayTask::closest : RayTask::any, {&ray, 1}, {&hit, 1});
   return hit;
+}
+
+// What is verified is true, however it came about: its answer is that of the exact cast, and its bracket holds the
+// time. Its answer is known.
+inline void expect_true(const std::vector<SceneBody>& bodies,
+                        const oracle::SceneRayCertificate& verified) {
+  const SceneRayHit hit = solved(bodies, verified);
+  EXPECT_EQ(hit.hit, verified.answer == CastAnswer::hit);
+  if (verified.answer != CastAnswer::hit) return;
+  EXPECT_GE(value_of(verified.upper), hit.t * (1 - 1e-9));
+  EXPECT_LE(value_of(verified.lower), hit.t * (1 + 1e-9));
 }
 
 }  // namespace touchstone::reference
