@@ -120,9 +120,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE FurthestVertices furthest_vertices(
     const SupportShape<double>& shape = *shapes[lane];
     const double x = towards[0][lane], y = towards[1][lane], z = towards[2][lane];
     if (shape.cells.empty()) {
-      const std::span<const hull_scan::VertexBlock<double>> blocks(shape.vertices);
-      const std::uint32_t i = furthest_at(blocks, x, y, z).index;
-      const hull_scan::VertexBlock<double>& block = blocks[i / size];
+      const std::uint32_t i = furthest_index(shape.scanned_hull(), x, y, z);
+      const hull_scan::VertexBlock<double>& block = shape.vertices[i / size];
       vertices[0][lane] = block.x[i % size];
       vertices[1][lane] = block.y[i % size];
       vertices[2][lane] = block.z[i % size];

@@ -25,4 +25,15 @@ inline __attribute__((always_inline)) void prefetch_blocks(
   prefetch(blocks, std::min(count * sizeof *blocks, most));
 }
 
+// Prefetches the begin of what a scan reads first.
+template <class Scalar>
+inline __attribute__((always_inline)) void prefetch_hull(
+    const hull_scan::ScannedHull<Scalar>& hull) {
+  if (hull.rough != nullptr) {
+    prefetch_blocks(hull.rough, hull.blocks.size());
+  } else {
+    prefetch_blocks(hull.blocks.data(), hull.blocks.size());
+  }
+}
+
 }  // namespace touchstone

@@ -46,8 +46,7 @@ class QuadShape {
     const Core core = Which::of(shape);
     const Vector d = rows_[0] * direction[0] + rows_[1] * direction[1] + rows_[2] * direction[2];
     if (core == Core::hull && shape.cells.empty()) {
-      const std::span<const hull_scan::VertexBlock<Scalar>> blocks(shape.vertices);
-      corner = furthest_at(blocks, d[0], d[1], d[2]).index;
+      corner = furthest_index<Scalar>(shape.scanned_hull(), d[0], d[1], d[2]);
       const Vec3<Scalar> v = shape.scanned_vertex(corner);
       return turn(v.x(), v.y(), v.z());
     }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "algorithms/core/isa.h"
@@ -47,6 +49,19 @@ struct Found {
 
 inline constexpr std::size_t most_blocks = 16;  // blocks that are tested together
 
+// The vertices of a hull, with coordinates of at most 1 in magnitude. In double, those of a hull that `is_scanned_in_floats`
+// are there as floats too.
+template <class Scalar>
+struct ScannedHull {
+  std::span<const VertexBlock<Scalar>> blocks;
+  const VertexBlock<float>* rough = nullptr;
+};
+
+// Whether a scan in floats takes less time, or as much, for so many blocks in double.
+constexpr bool is_scanned_in_floats(std::size_t blocks) {
+  return blocks > 4 && blocks <= most_blocks;
+}
+
 // The function `furthest_at(blocks, x, y, z)` of each level returns the index of the vertex with
 // the greatest d.v, and the first if there are several. The result is equal at every level. NaN
 // is never the greatest, but a product that is infinite may be lost beside it; if all are NaN the
@@ -56,12 +71,12 @@ inline constexpr std::size_t most_blocks = 16;  // blocks that are tested togeth
 
 // The vertex and the value, computed at the active level.
 template <class Scalar>
-std::uint32_t furthest(std::span<const VertexBlock<Scalar>> blocks, const Vec3<Scalar>& direction);
+std::uint32_t furthest(const ScannedHull<Scalar>& hull, const Vec3<Scalar>& direction);
 template <class Scalar>
 Scalar greatest(std::span<const VertexBlock<Scalar>> blocks, const Vec3<Scalar>& direction);
 
-extern template std::uint32_t furthest(std::span<const VertexBlock<float>>, const Vec3<float>&);
-extern template std::uint32_t furthest(std::span<const VertexBlock<double>>, const Vec3<double>&);
+extern template std::uint32_t furthest(const ScannedHull<float>&, const Vec3<float>&);
+extern template std::uint32_t furthest(const ScannedHull<double>&, const Vec3<double>&);
 extern template float greatest(std::span<const VertexBlock<float>>, const Vec3<float>&);
 extern template double greatest(std::span<const VertexBlock<double>>, const Vec3<double>&);
 

@@ -45,9 +45,41 @@ TOUCHSTONE_TARGET inline Found<Scalar> best_of(const VertexBlock<Scalar>* blocks
   return {greatest, 0};
 }
 
+// The same for as many blocks as are known when this is compiled, so that all values stay in registers.
+template <class Scalar, std::size_t count>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Found<Scalar> best_of_few(const VertexBlock<Scalar>* blocks,
+                                                              Scalar x, Scalar y, Scalar z) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  constexpr std::size_t size = VertexBlock<Scalar>::size, parts = size / Lanes::width;
+  static_assert(count * size <= 64);
+  Vector values[count * parts];
+  const Vector dx = Lanes::broadcast(x), dy = Lanes::broadcast(y), dz = Lanes::broadcast(z);
+  Vector best = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
+#pragma GCC unroll 16
+  for (std::size_t k = 0; k < count * parts; ++k) {
+    const VertexBlock<Scalar>& block = blocks[k / parts];
+    const std::size_t first = k % parts * Lanes::width;
+    values[k] = dx * Lanes::load(block.x + first) + dy * Lanes::load(block.y + first) +
+                dz * Lanes::load(block.z + first);
+    best = Lanes::max(best, values[k]);
+  }
+  const Scalar greatest = Lanes::reduce_max(best);
+  const Vector all = Lanes::broadcast(greatest);
+  std::uint64_t less = 0;
+#pragma GCC unroll 16
+  for (std::size_t k = 0; k < count * parts; ++k) {
+    less |= std::uint64_t{Lanes::to_bits(Lanes::less(values[k], all))} << (k * Lanes::width);
+  }
+  const std::uint64_t places = ~less & (~std::uint64_t{0} >> (64 - count * size));
+  return {greatest, places != 0 ? static_cast<std::uint32_t>(std::countr_zero(places)) : 0};
+}
+
 template <class Scalar>
 TOUCHSTONE_TARGET inline Found<Scalar> furthest_at(std::span<const VertexBlock<Scalar>> blocks,
                                                    Scalar x, Scalar y, Scalar z) {
+  if (blocks.size() == 1) return best_of_few<Scalar, 1>(blocks.data(), x, y, z);
+  if (blocks.size() == 2) return best_of_few<Scalar, 2>(blocks.data(), x, y, z);
   if (blocks.size() <= most_blocks) return best_of<Scalar>(blocks.data(), blocks.size(), x, y, z);
   Found<Scalar> best{-std::numeric_limits<Scalar>::infinity(), 0};
   for (std::size_t i = 0; i < blocks.size(); i += most_blocks) {
@@ -59,4 +91,16 @@ TOUCHSTONE_TARGET inline Found<Scalar> furthest_at(std::span<const VertexBlock<S
     }
   }
   return best;
+}
+
+#include "algorithms/kernels/minkowski/rough_scan.inl"
+
+// The index of the same, of a hull that may have its vertices as floats too.
+template <class Scalar>
+TOUCHSTONE_TARGET inline std::uint32_t furthest_index(const ScannedHull<Scalar>& hull, Scalar x,
+                                                      Scalar y, Scalar z) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    if (hull.rough != nullptr) return furthest_by_floats(hull.rough, hull.blocks, x, y, z);
+  }
+  return furthest_at(hull.blocks, x, y, z).index;
 }

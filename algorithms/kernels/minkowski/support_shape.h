@@ -46,6 +46,8 @@ struct SupportShape {
   // Hull: its vertices for a scan, or, if there are many, their cube map `cells`.
   std::vector<hull_scan::VertexBlock<Scalar>> vertices;
   SupportCubeMap<Scalar> cells;
+  // In double: the vertices as floats, if there are so many that floats pay (`is_scanned_in_floats`).
+  std::vector<hull_scan::VertexBlock<float>> rough;
   // The vertices once more, one after the other, for access to a single one.
   struct alignas(4 * sizeof(Scalar)) Corner {
     Scalar x, y, z;
@@ -62,8 +64,11 @@ struct SupportShape {
   // Hull: the index of the vertex that is furthest in the direction.
   std::uint32_t furthest(const Vec3<Scalar>& direction) const {
     if (!cells.empty()) return cells.number(cells.furthest(direction).place);
-    return hull_scan::furthest(std::span<const hull_scan::VertexBlock<Scalar>>(vertices),
-                               direction);
+    return hull_scan::furthest(scanned_hull(), direction);
+  }
+  // Hull without a cube map.
+  hull_scan::ScannedHull<Scalar> scanned_hull() const {
+    return {vertices, rough.empty() ? nullptr : rough.data()};
   }
   Vec3<Scalar> vertex(std::uint32_t i) const {
     const Corner& corner = corners[i];

@@ -136,6 +136,7 @@ void GjkLanes<Scalar>::bind(std::span<const Shape> shapes,
     if (shapes[i].kind == ShapeKind::hull) {
       lane.vertices = shape.vertices.data();
       lane.block_count = static_cast<std::uint32_t>(shape.vertices.size());
+      lane.rough = shape.scanned_hull().rough;
       // The centre of a hull far from its origin must be rotated with care. Cube maps are not used
       // in lanes.
       lane.fits = shape.is_near_origin && shape.cells.empty();

@@ -39,6 +39,9 @@ struct LaneShape {
   bool fits;                      // the lanes take it
   bool scans;                     // the lanes take it as a hull that is scanned
   const hull_scan::VertexBlock<Scalar>* vertices;  // hull: block_count blocks
+  const hull_scan::VertexBlock<float>* rough;      // as in ScannedHull
+
+  hull_scan::ScannedHull<Scalar> scanned_hull() const { return {{vertices, block_count}, rough}; }
 };
 
 // The tetrahedron of a GJK search that ended around the origin: points of the difference, and on

@@ -14,7 +14,7 @@ struct LaneState {
   // to vertices.
   Quad<Scalar> poses[6][width], sizes[width], directions[width], extents_a[width], extents_b[width];
   const hull_scan::VertexBlock<Scalar>*corners_a[width], *corners_b[width];
-  std::uint32_t blocks_a[width], blocks_b[width];
+  hull_scan::ScannedHull<Scalar> hulls_a[width], hulls_b[width];
   double unit[width];  // metres
   std::uint32_t place[width];
 
@@ -71,7 +71,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void iterate(const LaneGoal<Scalar>& goal,
   using Vector = typename Lanes::Vector;
   const Vector zero = Lanes::broadcast(0), margin = Lanes::broadcast(lane_rounding<Scalar>);
   const Vector3<Scalar> search = state.search;
-  const Corner<Scalar> corner = 
+  const Corner<Scalar> corner =
       find_corner<Scalar, scans>(goal, state, search, state.length, state.active);
 
   const Vector radius = state.radius_a + state.radius_b;

@@ -83,11 +83,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   state.corners_b[lane] = b.vertices;
   if constexpr (scans) {
     // The vertices are used after the other lanes are loaded.
-    if (goal.scans_a) prefetch_blocks(a.vertices, a.block_count);
-    if (goal.scans_b) prefetch_blocks(b.vertices, b.block_count);
+    if (goal.scans_a) prefetch_hull(a.scanned_hull());
+    if (goal.scans_b) prefetch_hull(b.scanned_hull());
   }
-  state.blocks_a[lane] = a.block_count;
-  state.blocks_b[lane] = b.block_count;
+  state.hulls_a[lane] = a.scanned_hull();
+  state.hulls_b[lane] = b.scanned_hull();
   return Loaded::iterates;
 }
 

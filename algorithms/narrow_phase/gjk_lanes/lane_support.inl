@@ -40,9 +40,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> furthest_corner(const Vector
 // The vertex of each lane that is furthest in its direction, rotated by the matrix of these
 // columns.
 template <class Scalar>
-TOUCHSTONE_TARGET Vector3<Scalar> scanned_vertex(
-    const hull_scan::VertexBlock<Scalar>* const* blocks, const std::uint32_t* block_counts,
-    const Vector3<Scalar> columns[3], const Vector3<Scalar>& direction, unsigned active) {
+TOUCHSTONE_TARGET Vector3<Scalar> scanned_vertex(const hull_scan::ScannedHull<Scalar>* hulls,
+                                                 const Vector3<Scalar> columns[3],
+                                                 const Vector3<Scalar>& direction,
+                                                 unsigned active) {
   using Vector = typename Simd<Scalar>::Vector;
   constexpr std::size_t width = Simd<Scalar>::width;
   constexpr std::uint32_t size = hull_scan::VertexBlock<Scalar>::size;
@@ -53,10 +54,9 @@ TOUCHSTONE_TARGET Vector3<Scalar> scanned_vertex(
   std::memcpy(towards, turned, sizeof towards);
   for (; active != 0; active &= active - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(active));
-    const std::span<const hull_scan::VertexBlock<Scalar>> all(blocks[lane], block_counts[lane]);
     const std::uint32_t best =
-        furthest_at(all, towards[0][lane], towards[1][lane], towards[2][lane]).index;
-    const hull_scan::VertexBlock<Scalar>& block = blocks[lane][best / size];
+        furthest_index(hulls[lane], towards[0][lane], towards[1][lane], towards[2][lane]);
+    const hull_scan::VertexBlock<Scalar>& block = hulls[lane].blocks[best / size];
     x[lane] = block.x[best % size];
     y[lane] = block.y[best % size];
     z[lane] = block.z[best % size];
@@ -98,8 +98,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> furthest_round_point(
       rim = Lanes::select(tip, zero, rim);
     }
   }
-  return moved<Scalar>(
-      moved<Scalar>(moved<Scalar>(centre, x * rim, axes[0]), y * rim, axes[1]), along, axes[2]);
+  return moved<Scalar>(moved<Scalar>(moved<Scalar>(centre, x * rim, axes[0]), y * rim, axes[1]),
+                       along, axes[2]);
 }
 
 // The point on the core of a that is least far along `search`, the point on b that is furthest, and
@@ -116,8 +116,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Sc
   Corner<Scalar> corner;
   Vector3<Scalar> on_b;
   if (scans && goal.scans_a) {
-    corner.on_a = scanned_vertex<Scalar>(state.corners_a, state.blocks_a, state.a,
-                                         {-search.x, -search.y, -search.z}, active);
+    corner.on_a =
+        scanned_vertex<Scalar>(state.hulls_a, state.a, {-search.x, -search.y, -search.z}, active);
   } else if (goal.vertices_a != 0) {
     corner.on_a = furthest_vertex<Scalar, false>(state.a, goal.vertices_a, search);
   } else if (goal.round_a != RoundCore::none) {
@@ -128,13 +128,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Sc
         furthest_corner<Scalar, false>(state.a, goal.halves_a, {zero, zero, zero}, search);
   }
   if (scans && goal.scans_b) {
-    on_b = scanned_vertex<Scalar>(state.corners_b, state.blocks_b, state.b, search, active);
+    on_b = scanned_vertex<Scalar>(state.hulls_b, state.b, search, active);
     on_b = moved<Scalar>(on_b, Lanes::broadcast(1), state.centre_b);
   } else if (goal.vertices_b != 0) {
     on_b = furthest_vertex<Scalar, true>(state.b, goal.vertices_b, search);
   } else if (goal.round_b != RoundCore::none) {
-    on_b = furthest_round_point<Scalar, true>(state.b, goal.round_b, state.centre_b, search,
-                                              length);
+    on_b =
+        furthest_round_point<Scalar, true>(state.b, goal.round_b, state.centre_b, search, length);
   } else {
     on_b = furthest_corner<Scalar, true>(state.b, goal.halves_b, state.centre_b, search);
   }
