@@ -25,6 +25,7 @@
 // Cost:    O(1) space; a few support calls for polytopes, one for each digit for curved bodies. Tolerance:
 //          1e-9 of the larger body's size, or 3e-13 of the greatest of sizes, offset and path if that is
 //          more. Cap: 128 iterations.
+#include <algorithm>
 #include <vector>
 
 #include "algorithms/cast.h"
@@ -58,7 +59,7 @@ class GjkRayCast final : public Cast {
   }
 
  private:
-  // `load` and `cast` are those of box_lanes.h and round_lanes.h. `lanes` is scratch memory.
+  // `load` and `cast` are those of box_lanes.h and round_lanes.h. `lanes` is scratch memory that grows.
   template <class Lane, class Load, class CastAll>
   void solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, const Load& load,
                    const CastAll& cast, std::span<CastOutcome> outcomes);
@@ -78,16 +79,15 @@ template <class Lane, class Load, class CastAll>
 void GjkRayCast::solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, const Load& load,
                              const CastAll& cast, std::span<CastOutcome> outcomes) {
   const BodyPairs& pairs = batch.pairs;
-  lanes.clear();
+  lanes.resize(std::max(lanes.size(), batch.size()));
   places_.clear();
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const std::uint32_t a = pairs.first[i], b = pairs.second[i];
     const std::uint32_t shape_a = pairs.shape_of[a], shape_b = pairs.shape_of[b];
-    Lane& lane = lanes.emplace_back();
+    Lane& lane = lanes[places_.size()];
     const LaneLoad loaded = load(source_[shape_a], pairs.poses[a], batch.motions[a],
                                  source_[shape_b], pairs.poses[b], batch.motions[b], lane);
     if (loaded != LaneLoad::loaded) {
-      lanes.pop_back();
       if (loaded == LaneLoad::miss) {
         outcomes[i] = {.answer = CastAnswer::miss, .status = Status::ok, .iterations = 0};
       } else {
@@ -98,8 +98,8 @@ void GjkRayCast::solve_lanes(const CastBatch& batch, std::vector<Lane>& lanes, c
     lane.tolerance = one_.tolerance(shape_a, shape_b);
     places_.push_back(i);
   }
-  times_.resize(lanes.size());
-  cast(lanes, times_);
+  times_.resize(places_.size());
+  cast(std::span(lanes).first(places_.size()), times_);
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const LaneTimes& times = times_[k];
     CastOutcome& outcome = outcomes[places_[k]];

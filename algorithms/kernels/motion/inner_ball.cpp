@@ -34,12 +34,6 @@ double inner_radius(const Shape& shape, const SupportShape<double>& support) {
   }
 }
 
-double least_stretch(const Mat3d& matrix) {
-  // |M x|^2 = x (M^T M) x >= 1 - |M^T M - I|.
-  const Mat3d off = matrix.transpose() * matrix - Mat3d::Identity();
-  return std::max(0.0, 1 - off.norm());
-}
-
 std::vector<double> inner_radii(std::span<const Shape> shapes,
                                 std::span<const SupportShape<double>> support_shapes) {
   std::vector<double> radii;

@@ -15,9 +15,6 @@ double inner_radius(const Shape& shape, const SupportShape<double>& support);
 std::vector<double> inner_radii(std::span<const Shape> shapes,
                                 std::span<const SupportShape<double>> support_shapes);
 
-// The least factor by which a matrix lengthens a vector, if it is nearly a rotation, otherwise 0.
-double least_stretch(const Mat3d& matrix);
-
 // Returns true if the origin is surely in the ball, or between it and the point: the ray from the point
 // through the origin meets the ball, also if point and centre are off by `rounding`.
 bool is_in_front_of_ball(const Vec3d& point, const Vec3d& centre, double radius, double rounding);

@@ -19,7 +19,8 @@ class MovingScene {
   // Body k of the batch's pairs.
   MovingBody body(const CastBatch& batch, std::uint32_t k) const {
     const std::uint32_t shape = batch.pairs.shape_of[k];
-    return {&shapes_[shape], &batch.pairs.poses[k], &batch.motions[k], inner_radii_[shape]};
+    const Pose& pose = batch.pairs.poses[k];
+    return {&shapes_[shape], &pose, &batch.motions[k], inner_radii_[shape], stretch_of(pose)};
   }
   // The greatest distance (metres) of a shape's points from its centre.
   double size(std::uint32_t shape) const { return shapes_[shape].size + shapes_[shape].radius; }

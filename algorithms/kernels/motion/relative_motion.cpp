@@ -12,14 +12,14 @@ namespace {
 
 constexpr double beyond_rounding = 1 + 1e-12;
 
-double reach_of(const MovingBody& body, double stretch) {
+double reach_of(const MovingBody& body) {
   const SupportShape<double>& shape = *body.shape;
   const double centre = shape.is_centred ? 0 : shape.centre.stableNorm();
-  return (centre + shape.size) * stretch * beyond_rounding;
+  return (centre + shape.size) * body.stretch.most * beyond_rounding;
 }
 
-double extent_of(const MovingBody& body, double stretch) {
-  return body.shape->size * stretch * beyond_rounding + body.shape->radius;
+double extent_of(const MovingBody& body) {
+  return body.shape->size * body.stretch.most * beyond_rounding + body.shape->radius;
 }
 
 // A bound on the length of a vector, within a factor of two.
@@ -71,15 +71,6 @@ Mat3d TurningPose::at(double time) const {
   return start_ + sine * across_ + versine * twice_across_;
 }
 
-double stretch_of(const Mat3d& matrix) {
-  // The greatest eigenvalue of M^T M, which is symmetric, is at most its greatest row sum.
-  const auto x = matrix.col(0), y = matrix.col(1), z = matrix.col(2);
-  const double xy = std::abs(x.dot(y)), yz = std::abs(y.dot(z)), zx = std::abs(z.dot(x));
-  const double greatest =
-      std::max({x.squaredNorm() + xy + zx, y.squaredNorm() + yz + xy, z.squaredNorm() + zx + yz});
-  return std::sqrt(greatest) * (1 + 1e-12);
-}
-
 MotionBounds::MotionBounds(const MovingBody& a, const MovingBody& b)
     : a_(a),
       b_(b),
@@ -89,10 +80,9 @@ MotionBounds::MotionBounds(const MovingBody& a, const MovingBody& b)
       angle_a_(a.motion->rotation_vector.norm()),
       angle_b_(b.motion->rotation_vector.norm()) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  const double stretch_a = stretch_of(a.pose->rotation), stretch_b = stretch_of(b.pose->rotation);
-  reach_a_ = reach_of(a, stretch_a);
-  reach_b_ = reach_of(b, stretch_b);
-  extent_ = std::max(extent_of(a, stretch_a), extent_of(b, stretch_b));
+  reach_a_ = reach_of(a);
+  reach_b_ = reach_of(b);
+  extent_ = std::max(extent_of(a), extent_of(b));
   placement_rounding_ = 8 * epsilon * (length_bound(offset_) + length_bound(displacement_)) +
                         turning_rounding(angle_a_, reach_a_) + turning_rounding(angle_b_, reach_b_);
 }

@@ -8,16 +8,13 @@
 #include "algorithms/core/motion.h"
 #include "algorithms/kernels/minkowski/support.h"
 #include "algorithms/kernels/motion/inner_ball.h"
+#include "algorithms/kernels/motion/stretch.h"
 
 namespace touchstone {
 
 // exp(rotation_vector): the rotation about that vector by its length. Accurate to a few roundings
 // times 1 + its length.
 Mat3d rotation_by(const Vec3d& rotation_vector);
-
-// Returns an upper bound on the factor by which a matrix lengthens a vector; it is tight for
-// rotations.
-double stretch_of(const Mat3d& matrix);
 
 // The time in [0, 1] at which start + time * displacement is nearest to the origin.
 inline double nearest_time(const Vec3d& start, const Vec3d& displacement) {
@@ -31,8 +28,9 @@ struct MovingBody {
   const Pose* pose;      // at time 0
   const Motion* motion;  // from time 0 to 1
   double shape_inner;    // metres: inner_radius of the shape (inner_ball.h)
+  Stretch stretch;       // of the pose
 
-  double inner_radius() const { return shape_inner * least_stretch(pose->rotation); }
+  double inner_radius() const { return shape_inner * stretch.least; }
 };
 
 // A body's rotation at any time, by Rodrigues' formula with its matrices made once. As accurate as

@@ -23,8 +23,8 @@ Asked ask(const MovingPairCase& c, double tolerance) {
   const std::vector<Shape> shapes = {c.a, c.b};
   const auto supports = make_support_shapes<double>(shapes);
   const std::vector<double> inner = inner_radii(shapes, supports);
-  const MovingBody a{&supports[0], &c.pose_a, &c.motion_a, inner[0]};
-  const MovingBody b{&supports[1], &c.pose_b, &c.motion_b, inner[1]};
+  const MovingBody a{&supports[0], &c.pose_a, &c.motion_a, inner[0], stretch_of(c.pose_a)};
+  const MovingBody b{&supports[1], &c.pose_b, &c.motion_b, inner[1], stretch_of(c.pose_b)};
   const CentreOffset offset = centre_offset(supports[0], c.pose_a, supports[1], c.pose_b);
   return {ask_balls(offset, a, b, outer_reach(a) + outer_reach(b), tolerance),
           point_in_balls(offset, a, b)};

@@ -59,7 +59,7 @@ bool is_surely_in_box(const MovingBody& body, const PosedShape<double>& shape, d
   const Mat3d rotation = unit / shape.shape().unit * shape.matrix();
   const Vec3d seen = rotation.transpose() * point;
   // Coordinates are off by as much as the matrix is off a rotation, which its start is too.
-  const double skew = 1 - least_stretch(body.pose->rotation);
+  const double skew = 1 - body.stretch.least;
   const double margin = doubt + 2 * skew * length_of(seen);
   return skew < 0.5 &&
          ((shape.shape().unit * shape.shape().extents - seen.cwiseAbs()).array() > margin).all();

@@ -19,7 +19,7 @@ double sure_inner_ball(const MovingBody& body) { return body.inner_radius() + bo
 }  // namespace
 
 double outer_reach(const MovingBody& body) {
-  return body.shape->size * stretch_of(body.pose->rotation) + body.shape->radius;
+  return body.shape->size * body.stretch.most + body.shape->radius;
 }
 
 BallVerdict ask_balls(const CentreOffset& offset, const MovingBody& a, const MovingBody& b,

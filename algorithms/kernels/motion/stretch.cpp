@@ -1,0 +1,31 @@
+// The products of a matrix's columns, and the choice of the level of vector instructions.
+#include "algorithms/kernels/motion/stretch.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+// Four numbers fill no wider vectors.
+#if !defined(TOUCHSTONE_TWO_LEVELS)
+#define TOUCHSTONE_TWO_LEVELS
+#endif
+#include "algorithms/kernels/simd/vector.h"
+
+namespace touchstone {
+namespace {
+
+using simd::Quad;
+
+#define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/motion/stretch.inl"
+#include "algorithms/kernels/simd/foreach_target.inl"
+
+}  // namespace
+
+Stretch stretch_of(const Pose& pose) {
+  return isa() == Isa::baseline ? baseline::stretch_at(pose) : avx2::stretch_at(pose);
+}
+
+}  // namespace touchstone
