@@ -60,7 +60,6 @@ class Choice {
   std::size_t held_bytes() const { return looks_.held_bytes(); }
 
  private:
-  static constexpr std::size_t few_bodies = 2'500, many_bodies = 400'000;
   static constexpr int most_patience = 64;
 
   static bool is_for_rest(Candidate candidate) {
@@ -75,12 +74,11 @@ class Choice {
     const std::size_t kept = is_for_rest(candidate_) ? 2 : 1;
     return (answers.are_changes ? 8 : 32) * changes <= kept * bodies_;
   }
-  Candidate wants(const FrameChange& change, const Answers& answers) const;
   // Returns what update does where it is not one of the two for such worlds that goes on.
   bool update_slowly(const FrameChange& change, const Answers& answers);
   bool look(const FrameChange& change, Answers& answers);
 
-  Candidate candidate_ = Candidate::packed_rtree;
+  Candidate candidate_ = Candidate::verlet_list;
   std::size_t bodies_ = 0;
   int wanted_for_ = 0;  // frames in a row in which another candidate was wanted
   int patience_ = 1;    // frames

@@ -6,12 +6,7 @@
 
 namespace touchstone {
 
-enum class Candidate : std::uint8_t {
-  packed_rtree,
-  verlet_list,
-  dynamic_bvh,
-  incremental_sweep_and_prune
-};
+enum class Candidate : std::uint8_t { verlet_list, dynamic_bvh, incremental_sweep_and_prune };
 
 // How a body moves in a frame, in the mean over those that do.
 struct MoverMotion {

@@ -2,6 +2,7 @@
 #include "algorithms/kernels/bvh/implicit_rtree.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "algorithms/core/executor/parallel_blocks.h"
@@ -103,6 +104,27 @@ std::size_t list_overlaps(const ImplicitRTree& tree, const Aabb& box, RTreeScrat
     case Isa::avx2: return avx2::list(tree, box, scratch);
     default: return baseline::list(tree, box, scratch);
   }
+}
+
+// A pair of two of the bodies counts at the smaller id.
+void search_bodies(Executor& executor, const ImplicitRTree& tree, std::span<const Aabb> boxes,
+                   std::span<const std::uint32_t> bodies, const BodyMarks& asked,
+                   std::vector<RTreeScratch>& scratch, PairSink& sink) {
+  constexpr std::size_t bodies_a_task = 64;
+  sink.start(block_count(bodies.size(), bodies_a_task));
+  const auto search = [&](std::size_t task, int worker) {
+    RTreeScratch& own = scratch[static_cast<std::size_t>(worker)];
+    const std::size_t last = std::min((task + 1) * bodies_a_task, bodies.size());
+    for (std::size_t i = task * bodies_a_task; i < last; ++i) {
+      const std::uint32_t a = bodies[i];
+      if (boxes[a].is_empty()) continue;
+      const std::size_t found = list_overlaps(tree, boxes[a], own);
+      for (const std::uint32_t b : std::span(own.children).first(found)) {
+        if (a < b || (a > b && !asked.has(b))) sink.chunk(task).push(a, b);
+      }
+    }
+  };
+  executor.run(sink.chunks().size(), std::cref(search));
 }
 
 }  // namespace touchstone

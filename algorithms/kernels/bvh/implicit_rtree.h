@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "algorithms/broad_phase_work.h"
+#include "algorithms/core/body_marks.h"
 #include "algorithms/core/executor/executor.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/structure_box.h"
@@ -66,5 +67,15 @@ void pair_group(const ImplicitRTree& tree, std::size_t group, RTreeScratch& scra
 
 // Writes the ids of the boxes that overlap `box` to scratch.children, and returns their number.
 std::size_t list_overlaps(const ImplicitRTree& tree, const Aabb& box, RTreeScratch& scratch);
+
+// Returns true if searches for so many bodies alone take less than one for all.
+constexpr bool are_few(std::size_t bodies, std::size_t all) { return 8 * bodies <= all; }
+
+// Writes each pair of boxes that overlap and of which one body, or both, is among `bodies`: what
+// BroadPhase::find_pairs_of does. The tree is that of these boxes, `asked` marks the bodies, and
+// `scratch` holds one entry for each worker. The order of the pairs does not depend on the width.
+void search_bodies(Executor& executor, const ImplicitRTree& tree, std::span<const Aabb> boxes,
+                   std::span<const std::uint32_t> bodies, const BodyMarks& asked,
+                   std::vector<RTreeScratch>& scratch, PairSink& sink);
 
 }  // namespace touchstone
