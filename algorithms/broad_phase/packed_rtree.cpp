@@ -89,8 +89,9 @@ class PackedRTree final : public BroadPhase {
   void fit(std::span<const Aabb> boxes) {
     boxes_ = boxes;
     if (order_.empty()) return;
-    order_.gather(executor_, boxes, tree_.boxes());
-    tree_.fit(executor_);
+    tree_.fit(executor_, order_.places(), [&](std::size_t first, std::size_t last) {
+      order_.gather(boxes, first, last, tree_.boxes());
+    });
   }
 
   Executor& executor_;

@@ -25,7 +25,7 @@ class RebuildInterval {
  private:
   // Growth of a box's side a frame, in units of the share. It begins low, since only lists that were
   // made correct it.
-  double growth_ = 1;
+  double growth_ = 0.6;
   double lasted_ = 1;  // mean ratio of the age at which a list ended and the frames it was made for
   double share_ = 0;   // share of the last list
   double frames_ = 0;  // frames that it was made for

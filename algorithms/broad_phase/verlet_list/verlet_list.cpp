@@ -84,8 +84,9 @@ class VerletList final : public BroadPhase {
   }
   void fit(std::span<const Aabb> boxes) {
     if (order_.empty()) return;
-    order_.gather(executor_, boxes, tree_.boxes());
-    tree_.fit(executor_);
+    tree_.fit(executor_, order_.places(), [&](std::size_t first, std::size_t last) {
+      order_.gather(boxes, first, last, tree_.boxes());
+    });
   }
   std::size_t groups() const { return order_.empty() ? 0 : tree_.groups(); }
 

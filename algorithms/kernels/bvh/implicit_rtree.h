@@ -14,6 +14,7 @@
 #include "algorithms/broad_phase_work.h"
 #include "algorithms/core/body_marks.h"
 #include "algorithms/core/executor/executor.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/structure_box.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
@@ -29,11 +30,22 @@ class ImplicitRTree {
 
   ImplicitRTree() : levels_(1) { levels_.reserve(9); }  // enough for 2^32 boxes
 
-  // The boxes: the caller fills them in and then calls fit().
+  // Makes the tree over `count` boxes, at least one. fill(first, last) is called for ranges of them,
+  // each of which begins at a multiple of `group`, and writes those boxes to boxes(). What a task has
+  // filled in it bounds at once, while it has it in the cache.
+  template <class Fill>
+  void fit(Executor& executor, std::size_t count, const Fill& fill) {
+    constexpr std::size_t places_a_task = 4 * group;
+    resize(count);
+    for_each_block(executor, count, places_a_task,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     fill(first, last);
+                     bound_groups(first, last);
+                   });
+    bound_above(executor);
+  }
   AabbSoA& boxes() { return levels_[0]; }
   const AabbSoA& boxes() const { return levels_[0]; }
-  // Computes the bounds of the boxes as they are; there is at least one.
-  void fit(Executor& executor);
 
   std::size_t groups() const { return (boxes().size() + group - 1) / group; }
   // levels()[0] holds the boxes, levels()[1] the bounds of blocks of them, levels()[2] those of
@@ -46,6 +58,12 @@ class ImplicitRTree {
   std::size_t held_bytes() const;
 
  private:
+  void resize(std::size_t count);
+  // Computes the bounds of the blocks and groups of these boxes.
+  void bound_groups(std::size_t first, std::size_t last);
+  // Computes the bounds of the levels above the groups.
+  void bound_above(Executor& executor);
+
   std::vector<AabbSoA> levels_;
   std::size_t used_ = 1;
 };
