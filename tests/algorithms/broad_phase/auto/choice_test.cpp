@@ -120,12 +120,25 @@ TEST_F(ChoiceByCounts, ChangesLessAndLessOften) {
 }
 
 TEST_F(ChoiceByCounts, OfManyThatMoveIsTheVerletList) {
+  const auto wants_bvh = [&](std::size_t bodies, std::size_t movers, std::size_t pairs,
+                             bool is_known = true) {
+    start(bodies, movers);
+    answers_.is_known = is_known;
+    answers_.pairs = pairs * bodies / 2;
+    const bool is_bvh = frames_until(bvh, 5, 1e-3f) == 0;
+    EXPECT_EQ(choice_.candidate(), is_bvh ? bvh : Candidate::verlet_list);
+    return is_bvh;
+  };
   for (const std::size_t bodies : {2'000, 400'001}) {
-    start(bodies, bodies / 32);
-    EXPECT_EQ(frames_until(bvh, 5, 1e-3f), 0);
-    start(bodies, bodies / 32 + 1);
-    EXPECT_EQ(frames_until(bvh, 5, 1e-3f), -1);
-    EXPECT_EQ(choice_.candidate(), Candidate::verlet_list);
+    for (const std::size_t pairs : {1, 6, 60}) {
+      EXPECT_TRUE(wants_bvh(bodies, bodies / 32, pairs));
+      EXPECT_FALSE(wants_bvh(bodies, bodies / 5, pairs));
+    }
+    EXPECT_TRUE(wants_bvh(bodies, bodies / 10, 1));
+    EXPECT_TRUE(wants_bvh(bodies, bodies / 20, 6));
+    EXPECT_FALSE(wants_bvh(bodies, bodies / 10, 6));
+    EXPECT_FALSE(wants_bvh(bodies, bodies / 32 + 1, 60));
+    EXPECT_FALSE(wants_bvh(bodies, bodies / 10, 1, false));
   }
 }
 
