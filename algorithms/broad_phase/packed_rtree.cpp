@@ -61,26 +61,12 @@ class PackedRTree final : public BroadPhase {
     return Status::ok;
   }
 
-  // Searches for each of a few bodies alone; a pair of two of them counts at the smaller id.
   Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) override {
-    if (order_.empty() || few * bodies.size() > boxes_.size()) {
+    if (order_.empty() || !are_few(bodies.size(), boxes_.size())) {
       return BroadPhase::find_pairs_of(bodies, sink);
     }
     asked_.set(bodies);
-    sink.start(block_count(bodies.size(), bodies_a_task));
-    const auto search = [&](std::size_t task, int worker) {
-      RTreeScratch& scratch = scratch_[static_cast<std::size_t>(worker)];
-      const std::size_t last = std::min((task + 1) * bodies_a_task, bodies.size());
-      for (std::size_t i = task * bodies_a_task; i < last; ++i) {
-        const std::uint32_t a = bodies[i];
-        if (boxes_[a].is_empty()) continue;
-        const std::size_t found = list_overlaps(tree_, boxes_[a], scratch);
-        for (const std::uint32_t b : std::span(scratch.children).first(found)) {
-          if (a < b || (a > b && !asked_.has(b))) sink.chunk(task).push(a, b);
-        }
-      }
-    };
-    executor_.run(sink.chunks().size(), std::cref(search));
+    search_bodies(executor_, tree_, boxes_, bodies, asked_, scratch_, sink);
     return Status::ok;
   }
 
@@ -98,15 +84,14 @@ class PackedRTree final : public BroadPhase {
 
  private:
   static constexpr std::size_t groups_a_task = 4;
-  static constexpr std::size_t bodies_a_task = 64;
-  static constexpr std::size_t few = 8;  // searches alone pay for up to 1 / few of the bodies
 
   std::size_t groups() const { return order_.empty() ? 0 : tree_.groups(); }
   void fit(std::span<const Aabb> boxes) {
     boxes_ = boxes;
     if (order_.empty()) return;
-    order_.gather(executor_, boxes, tree_.boxes());
-    tree_.fit(executor_);
+    tree_.fit(executor_, order_.places(), [&](std::size_t first, std::size_t last) {
+      order_.gather(boxes, first, last, tree_.boxes());
+    });
   }
 
   Executor& executor_;

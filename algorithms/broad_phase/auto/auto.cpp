@@ -1,13 +1,12 @@
-// Auto: the packed R-tree, the Verlet list, the dynamic BVH or incremental sweep and prune,
-// whichever suits the frames that come.
+// Auto: the Verlet list, which is the packed R-tree where no list pays, the dynamic BVH or incremental
+// sweep and prune, whichever suits the frames that come.
 // Paper:   Rice, "The Algorithm Selection Problem", Advances in Computers 15, 1976; Karlin, Manasse,
 //          Rudolph, Sleator, "Competitive Snoopy Caching", Algorithmica 3, 1988.
-// Steps:   1. Start with the packed R-tree, which needs no earlier frame.
+// Steps:   1. Start with the Verlet list, which needs no earlier frame and builds the packed R-tree.
 //          2. In each update count the bodies that moved, came or went, and take the pairs of the
 //             frame before (choice.cpp).
-//          3. Few changes want the dynamic BVH. Otherwise more than 400,000 bodies want the packed
-//             R-tree. Of fewer, those that have few pairs want the Verlet list, and so do more than
-//             2,500 of about one size; the rest wants the packed R-tree.
+//          3. Few changes want the dynamic BVH, the fewer the more pairs there are; others the Verlet list, which chooses itself between
+//             a list and the packed R-tree by counts (verlet_list/rebuild_interval.cpp).
 //          4. When another one has been wanted for some frames in a row, build it with this frame's
 //             boxes, and drop the one before. The first frame after a build suffices.
 //          5. While changes are few, look now and then how far some of the bodies move, and estimate
@@ -36,7 +35,6 @@
 
 namespace touchstone::entries {
 
-std::vector<BroadPhaseEntry> broad_phase_packed_rtree();
 std::vector<BroadPhaseEntry> broad_phase_verlet_list();
 std::vector<BroadPhaseEntry> broad_phase_dynamic_bvh();
 std::vector<BroadPhaseEntry> broad_phase_incremental_sweep_and_prune();
@@ -48,25 +46,23 @@ namespace {
 
 std::unique_ptr<BroadPhase> make(Candidate candidate, Executor& executor) {
   switch (candidate) {
-    case Candidate::verlet_list: return entries::broad_phase_verlet_list()[0].make(executor);
     case Candidate::dynamic_bvh: return entries::broad_phase_dynamic_bvh()[0].make(executor);
     case Candidate::incremental_sweep_and_prune:
       return entries::broad_phase_incremental_sweep_and_prune()[0].make(executor);
-    default: return entries::broad_phase_packed_rtree()[0].make(executor);
+    default: return entries::broad_phase_verlet_list()[0].make(executor);
   }
 }
 
 class Auto final : public BroadPhase {
  public:
   explicit Auto(Executor& executor)
-      : executor_(executor), active_(make(Candidate::packed_rtree, executor)) {}
+      : executor_(executor), active_(make(Candidate::verlet_list, executor)) {}
 
   void build(std::span<const Aabb> boxes) override {
     const auto bodies = static_cast<std::size_t>(
         std::ranges::count_if(boxes, [](const Aabb& box) { return !box.is_empty(); }));
     // One that has told changes goes on, since it alone knows which.
-    const Candidate candidate =
-        answers_.are_changes ? choice_.candidate() : Candidate::packed_rtree;
+    const Candidate candidate = answers_.are_changes ? choice_.candidate() : Candidate::verlet_list;
     if (candidate != choice_.candidate()) active_ = make(candidate, executor_);
     choice_.start(candidate, bodies);
     active_->build(boxes);
@@ -152,8 +148,8 @@ namespace touchstone::entries {
 std::vector<BroadPhaseEntry> broad_phase_auto() {
   return {{.info = {.name = "auto",
                     .citation = "Rice, \"The Algorithm Selection Problem\", Advances in Computers "
-                                "15, 1976; of packed-rtree, verlet-list, dynamic-bvh and "
-                                "incremental-sweep-and-prune"},
+                                "15, 1976; of verlet-list, which is packed-rtree where no list "
+                                "pays, dynamic-bvh and incremental-sweep-and-prune"},
            .make = [](Executor& executor) { return std::make_unique<Auto>(executor); }}};
 }
 

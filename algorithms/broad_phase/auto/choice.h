@@ -60,27 +60,32 @@ class Choice {
   std::size_t held_bytes() const { return looks_.held_bytes(); }
 
  private:
-  static constexpr std::size_t few_bodies = 2'500, many_bodies = 400'000;
   static constexpr int most_patience = 64;
 
   static bool is_for_rest(Candidate candidate) {
     return candidate == Candidate::dynamic_bvh ||
            candidate == Candidate::incremental_sweep_and_prune;
   }
-  // True if the changes are few enough for a world that nearly rests. What is chosen is kept up to
-  // twice the threshold. The two for such worlds alone tell changes without all pairs.
+  // True if the changes are few enough for a world that nearly rests, or if bodies only move and are
+  // in so few pairs that the dynamic BVH costs less than the packed R-tree. What is chosen is kept up
+  // to twice the threshold, or a quarter above these costs. The two for such worlds alone tell changes
+  // without all pairs.
   bool are_few(const FrameChange& change, const Answers& answers) const {
-    const std::size_t changes =
-        change.moved.size() + change.inserted.size() + change.removed.size();
-    const std::size_t kept = is_for_rest(candidate_) ? 2 : 1;
-    return (answers.are_changes ? 8 : 32) * changes <= kept * bodies_;
+    const std::size_t churn = change.inserted.size() + change.removed.size();
+    const std::size_t changes = change.moved.size() + churn;
+    const bool is_kept = is_for_rest(candidate_);
+    if ((answers.are_changes ? 8 : 32) * changes <= (is_kept ? 2 : 1) * bodies_) return true;
+    if (churn > 0 || !answers.tell_pairs()) return false;
+    const auto bodies = static_cast<double>(bodies_);
+    const double pairs_a_body = answers.pairs_among(bodies) / bodies;
+    return moving_cost(pairs_a_body) * static_cast<double>(changes) <=
+           (is_kept ? 1.25 : 1.0) * searching_cost(pairs_a_body) * bodies;
   }
-  Candidate wants(const FrameChange& change, const Answers& answers) const;
   // Returns what update does where it is not one of the two for such worlds that goes on.
   bool update_slowly(const FrameChange& change, const Answers& answers);
   bool look(const FrameChange& change, Answers& answers);
 
-  Candidate candidate_ = Candidate::packed_rtree;
+  Candidate candidate_ = Candidate::verlet_list;
   std::size_t bodies_ = 0;
   int wanted_for_ = 0;  // frames in a row in which another candidate was wanted
   int patience_ = 1;    // frames

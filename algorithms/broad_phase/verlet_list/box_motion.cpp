@@ -24,32 +24,49 @@ float longest_side(const Aabb& box) {
   return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]});
 }
 
+// The step between the samples of so many boxes: odd, since what alternates may move alike.
+std::size_t stride_of(std::size_t boxes) {
+  constexpr std::size_t enough = 256;
+  return boxes / enough | 1;
+}
+
+class MotionSum {
+ public:
+  void add(const Aabb& then, const Aabb& now, int age) {
+    if (now.is_empty() || then.is_empty()) return;
+    const double step = displacement(then, now) / (2.0 * age);
+    const double side = (double{now.max[0]} - now.min[0] + (double{now.max[1]} - now.min[1]) +
+                         (double{now.max[2]} - now.min[2])) /
+                        3;
+    steps_ += step;
+    shares_ += step > 0 ? std::min(1.0, step / (side + step)) : 0;
+    ++bodies_;
+  }
+  MeanMotion mean() const {
+    if (bodies_ == 0) return {};
+    return {static_cast<float>(steps_ / bodies_), shares_ / bodies_};
+  }
+
+ private:
+  double steps_ = 0, shares_ = 0, bodies_ = 0;
+};
+
 }  // namespace
 
 MeanMotion mean_motion(std::span<const Aabb> then, std::span<const Aabb> now, int age) {
-  // Every sixteenth body is sample enough.
-  constexpr std::size_t stride = 16;
   const std::size_t count = std::min(now.size(), then.size());
-  MeanMotion motion;
-  double steps = 0;
-  double shares = 0;
-  std::size_t bodies = 0;
-  for (std::size_t i = 0; i < count; i += count < 1024 ? 1 : stride) {
-    const Aabb& box = now[i];
-    if (box.is_empty() || then[i].is_empty()) continue;
-    const double step = displacement(then[i], box) / (2.0 * age);
-    const double side = (double{box.max[0]} - box.min[0] + (double{box.max[1]} - box.min[1]) +
-                         (double{box.max[2]} - box.min[2])) /
-                        3;
-    steps += step;
-    shares += step > 0 ? std::min(1.0, step / (side + step)) : 0;
-    ++bodies;
+  MotionSum sum;
+  for (std::size_t i = 0; i < count; i += stride_of(count)) sum.add(then[i], now[i], age);
+  return sum.mean();
+}
+
+MeanMotion mean_motion(const AabbSoA& then, std::span<const Aabb> now) {
+  MotionSum sum;
+  for (std::size_t i = 0; i < then.size(); i += stride_of(then.size())) {
+    const Aabb box = then.box(i);
+    if (!box.is_empty()) sum.add(box, now[then.ids()[i]], 1);
   }
-  if (bodies > 0) {
-    motion.step = static_cast<float>(steps / static_cast<double>(bodies));
-    motion.share = shares / static_cast<double>(bodies);
-  }
-  return motion;
+  return sum.mean();
 }
 
 void grow_boxes(Executor& executor, std::span<const Aabb> now, std::vector<Aabb>& reference,

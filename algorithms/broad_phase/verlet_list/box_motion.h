@@ -6,6 +6,7 @@
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor/executor.h"
+#include "algorithms/kernels/boxes/aabb_soa.h"
 
 namespace touchstone {
 
@@ -17,6 +18,8 @@ struct MeanMotion {
 // Returns the mean motion from the boxes of `age` frames ago to those of now, both indexed by body,
 // estimated from a sample.
 MeanMotion mean_motion(std::span<const Aabb> then, std::span<const Aabb> now, int age);
+// The same from the boxes of one frame ago, in any order with their bodies' ids.
+MeanMotion mean_motion(const AabbSoA& then, std::span<const Aabb> now);
 
 // Turns `reference`, the boxes of `age` frames ago, into the boxes of now grown by their motion in
 // this many frames. Each grows by at least half of the mean displacement in these frames, or half of

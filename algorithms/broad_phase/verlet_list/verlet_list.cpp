@@ -2,7 +2,9 @@
 // has moved too far.
 // Paper:   Verlet, "Computer 'Experiments' on Classical Fluids. I", Physical Review 159, 1967
 //          (neighbour lists); the search is the packed R-tree's (kernels/bvh/implicit_rtree.h).
-// Steps:   1. Measure how far bodies move in a frame, from a sample (box_motion.cpp).
+// Steps:   1. Measure how far bodies move in a frame, from a sample (box_motion.cpp). While there is no
+//             list, the R-tree has the boxes of the frame before, and up to seven frames go without
+//             the measurement.
 //          2. Choose for how many frames a list is cheapest (rebuild_interval.cpp). If for none,
 //             search the boxes of this frame with the packed R-tree, and end.
 //          3. Grow each box by its motion in that many frames, and list all pairs of grown boxes
@@ -16,8 +18,8 @@
 //          of the R-tree is kept until its blocks have grown by a quarter. Escaped boxes are searched
 //          one by one while they are few. If motion is too fast for a list, the packed R-tree
 //          searches each frame.
-// Fails:   motion of a body's size a frame: it is then the packed R-tree, at a slightly higher
-//          cost.
+// Fails:   motion of a body's size a frame, or more than some two pairs a body that move: it is then
+//          the packed R-tree. Bodies that slow down get their list some frames late.
 // Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 80
 //          bytes a body and 12 a candidate.
 #include <algorithm>
@@ -47,11 +49,13 @@ class VerletList final : public BroadPhase {
   void build(std::span<const Aabb> boxes) override {
     boxes_ = boxes;
     is_ordered_ = false;
+    until_look_ = wait_ = 1;
     search_anew();
   }
 
   void update(const FrameChange& change) override;
   Status find_pairs(PairSink& sink) override;
+  Status find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) override;
   BroadPhaseWork work() const override;
   std::vector<StructureBox> structure() const override;
 
@@ -59,6 +63,7 @@ class VerletList final : public BroadPhase {
   static constexpr std::size_t block_size = 4096;
   static constexpr std::size_t groups_a_task = 4;
   static constexpr std::size_t escaped_a_task = 32;
+  static constexpr int most_wait = 8;          // frames
   static constexpr double most_spread = 1.25;  // growth of the blocks with which an order is kept
 
   // Loads the tree with these boxes, in the order of earlier ones while that is good.
@@ -79,13 +84,26 @@ class VerletList final : public BroadPhase {
   }
   void fit(std::span<const Aabb> boxes) {
     if (order_.empty()) return;
-    order_.gather(executor_, boxes, tree_.boxes());
-    tree_.fit(executor_);
+    tree_.fit(executor_, order_.places(), [&](std::size_t first, std::size_t last) {
+      order_.gather(boxes, first, last, tree_.boxes());
+    });
   }
   std::size_t groups() const { return order_.empty() ? 0 : tree_.groups(); }
 
-  void search_anew();
-  void make_list(double frames);
+  void search_anew() {
+    load(boxes_);
+    listed_ = false;
+  }
+  // The same where the tree is over the boxes of the frame before.
+  void search_again(const FrameChange& change) {
+    if (is_ordered_ && change.moved.empty()) return;
+    search_anew();
+  }
+  void recall_boxes();
+  double choose_frames(const MeanMotion& motion) {
+    return asks_for_all_ ? interval_.choose(motion, boxes_.size(), pairs_) : 0;
+  }
+  void make_list(const MeanMotion& motion, double frames);
   bool find_escaped(const FrameChange& change);
   void search_all(PairSink& sink);
   void search_escaped(std::size_t first, std::size_t last, RTreeScratch& scratch,
@@ -99,38 +117,39 @@ class VerletList final : public BroadPhase {
   double spread_ = 0;        // least spread of the blocks since the order was made
   ImplicitRTree tree_;       // over the grown boxes while there is a list, else over this frame's
 
-  // Grown boxes of the list, or the boxes of an earlier frame to measure motion by; indexed by
-  // body.
-  std::vector<Aabb> reference_;
-  int age_ = 0;  // frames since `reference_` was written
+  std::vector<Aabb> reference_;  // grown boxes of the list; indexed by body
+  int age_ = 0;                  // frames since the list was made
   bool listed_ = false;
   PairSink candidates_;
   RebuildInterval interval_;
+  int until_look_ = 1, wait_ = 1;  // frames until motion is measured, while there is no list
+  bool asks_for_all_ = true;       // the last question was for all pairs, or almost all
 
   std::vector<std::uint8_t> escaped_flag_;  // 1 for an escaped box; indexed by body
   std::vector<std::uint32_t> escaped_;      // escaped boxes: outside their grown ones, or new
   std::size_t searched_ = 0;  // number of escaped boxes, summed over the frames of this list
   AabbSoA escaped_boxes_;
   std::vector<std::size_t> counts_;  // one for each block
-  std::size_t pairs_ = 0;            // number found by the last search
+  std::size_t pairs_ = 0;            // number found by the last search for all
+  BodyMarks asked_;                  // scratch
 };
 
-// Orders the boxes and searches without a list; keeps the boxes to measure motion.
-void VerletList::search_anew() {
-  load(boxes_);
+// Writes the boxes of the frame before, which the tree holds while there is no list.
+void VerletList::recall_boxes() {
+  if (order_.size() < boxes_.size()) reference_.assign(boxes_.size(), Aabb::empty());
   reference_.resize(boxes_.size());
-  for_each_block(executor_, boxes_.size(), block_size,
+  const AabbSoA& then = tree_.boxes();
+  for_each_block(executor_, order_.empty() ? 0 : then.size(), block_size,
                  [&](std::size_t, std::size_t first, std::size_t last) {
-                   std::ranges::copy(boxes_.subspan(first, last - first),
-                                     reference_.begin() + static_cast<std::ptrdiff_t>(first));
+                   for (std::size_t i = first; i < last; ++i) {
+                     const Aabb box = then.box(i);
+                     if (!box.is_empty()) reference_[then.ids()[i]] = box;
+                   }
                  });
-  age_ = 0;
-  listed_ = false;
 }
 
 // Makes a list for this many frames; `reference_` holds the boxes of `age_` frames ago.
-void VerletList::make_list(double frames) {
-  const MeanMotion motion = mean_motion(reference_, boxes_, age_);
+void VerletList::make_list(const MeanMotion& motion, double frames) {
   grow_boxes(executor_, boxes_, reference_, age_, frames, motion);
   age_ = 0;
   load(reference_);
@@ -191,20 +210,33 @@ bool VerletList::find_escaped(const FrameChange& change) {
 
 void VerletList::update(const FrameChange& change) {
   boxes_ = change.boxes;
-  ++age_;
   if (!change.inserted.empty() || !change.removed.empty()) is_ordered_ = false;
+  MeanMotion motion;
   if (listed_) {
+    ++age_;
     if (find_escaped(change)) {
       escaped_boxes_.gather(executor_, boxes_, escaped_.size(),
                             [&](std::size_t i) { return escaped_[i]; });
       return;
     }
     interval_.ended(age_, boxes_.size(), pairs_);
+    motion = mean_motion(reference_, boxes_, age_);
+  } else {
+    if (--until_look_ > 0) return search_again(change);
+    if (!order_.empty()) motion = mean_motion(tree_.boxes(), boxes_);
   }
-  const double frames =
-      interval_.choose(mean_motion(reference_, boxes_, age_), boxes_.size(), pairs_);
-  if (frames > 0) return make_list(frames);
-  search_anew();
+  const double frames = choose_frames(motion);
+  if (frames == 0) {
+    wait_ = std::min(2 * wait_, most_wait);
+    until_look_ = wait_;
+    return listed_ ? search_anew() : search_again(change);
+  }
+  wait_ = until_look_ = 1;
+  if (!listed_) {
+    recall_boxes();
+    age_ = 1;
+  }
+  make_list(motion, frames);
 }
 
 // Writes pairs of the escaped boxes first <= i < last with boxes that have not escaped, and with
@@ -251,6 +283,16 @@ Status VerletList::find_pairs(PairSink& sink) {
   };
   executor_.run(candidates.size() + escaped_tasks, std::cref(do_task));
   pairs_ = sink.size();
+  return Status::ok;
+}
+
+Status VerletList::find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) {
+  asks_for_all_ = !are_few(bodies.size(), boxes_.size());
+  if (listed_ || asks_for_all_ || order_.empty()) {
+    return BroadPhase::find_pairs_of(bodies, sink);
+  }
+  asked_.set(bodies);
+  search_bodies(executor_, tree_, boxes_, bodies, asked_, scratch_, sink);
   return Status::ok;
 }
 

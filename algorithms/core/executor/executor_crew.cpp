@@ -40,8 +40,19 @@ ExecutorCrew::~ExecutorCrew() {
 void ExecutorCrew::start_threads() {
   constexpr int most = 8;
   const int count = may_spin_ ? width_ : std::min(width_, most);
+  ranges_ = std::vector<Range>(static_cast<std::size_t>(count));
   for (int worker = 1; worker < count; ++worker) {
     threads_.emplace_back(&ExecutorCrew::work_as, this, worker);
+  }
+}
+
+void ExecutorCrew::cut(std::size_t tasks) {
+  const std::size_t share = tasks / ranges_.size(), larger = tasks % ranges_.size();
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    ranges_[i].next.store(first, std::memory_order_relaxed);
+    first += share + (i < larger ? 1 : 0);
+    ranges_[i].end = first;
   }
 }
 
@@ -52,16 +63,22 @@ void ExecutorCrew::wake() {
 
 // Runs a task if there is one left. The first exception leaves no more tasks.
 bool ExecutorCrew::run_next(int worker) {
-  const std::size_t task = next_.fetch_add(1, std::memory_order_relaxed);
-  if (task >= tasks_) return false;
-  try {
-    (*body_)(task, worker);
-  } catch (...) {
-    const std::lock_guard lock(mutex_);
-    if (!failure_) failure_ = std::current_exception();
-    next_.store(tasks_, std::memory_order_relaxed);
+  const auto own = static_cast<std::size_t>(worker);
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    Range& range = ranges_[(own + i) % ranges_.size()];
+    if (range.next.load(std::memory_order_relaxed) >= range.end) continue;
+    const std::size_t task = range.next.fetch_add(1, std::memory_order_relaxed);
+    if (task >= range.end) continue;
+    try {
+      (*body_)(task, worker);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      for (Range& left : ranges_) left.next.store(left.end, std::memory_order_relaxed);
+    }
+    return true;
   }
-  return true;
+  return false;
 }
 
 ExecutorCrew::Share ExecutorCrew::share(std::size_t tasks, const Body& body, double seconds) {
@@ -69,8 +86,7 @@ ExecutorCrew::Share ExecutorCrew::share(std::size_t tasks, const Body& body, dou
   const auto start = Clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   body_ = &body;
-  tasks_ = tasks;
-  next_.store(0, std::memory_order_relaxed);
+  cut(tasks);
   state_.fetch_add((std::uint64_t{1} << loop_bits) + is_open);
   Share own;
   if (seconds == 0) {  // the first task tells

@@ -41,6 +41,10 @@ class AabbSoA {
   const float* max(int axis) const { return min(axis + 3); }
   const std::uint32_t* ids() const { return ids_.get(); }
 
+  Aabb box(std::size_t place) const {
+    return {{min(0)[place], min(1)[place], min(2)[place]},
+            {max(0)[place], max(1)[place], max(2)[place]}};
+  }
   void set(std::size_t place, const Aabb& box, std::uint32_t id) {
     for (int axis = 0; axis < 3; ++axis) {
       min(axis)[place] = box.min[static_cast<std::size_t>(axis)];

@@ -7,12 +7,7 @@ namespace touchstone {
 
 std::vector<Aabb> list_boxes(const AabbSoA& boxes) {
   std::vector<Aabb> list(boxes.size());
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      list[i].min[static_cast<std::size_t>(axis)] = boxes.min(axis)[i];
-      list[i].max[static_cast<std::size_t>(axis)] = boxes.max(axis)[i];
-    }
-  }
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = boxes.box(i);
   return list;
 }
 

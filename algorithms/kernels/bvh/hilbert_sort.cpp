@@ -24,6 +24,12 @@ constexpr int cells_a_body_log2 = 1;
 // A cell of the curve with more boxes gets a curve of its own.
 constexpr std::size_t most_in_cell = 32;
 
+// Returns the first place after these at which a class may begin.
+std::size_t round_up(std::size_t places) {
+  constexpr std::size_t group = ImplicitRTree::group;
+  return block_count(places, group) * group;
+}
+
 int bits_of(std::size_t x) { return static_cast<int>(std::bit_width(x)); }
 
 // Sorts items by these bits of theirs, least significant digit first, and keeps the order of those
@@ -150,26 +156,30 @@ void HilbertSort::refine(std::span<const Aabb> boxes, std::size_t first, std::si
   for (std::size_t i = first; i < last; ++i) order_[i] = key_of_all << id_bits_ | id(i);
 }
 
-void HilbertSort::gather(Executor& executor, std::span<const Aabb> boxes, AabbSoA& arrays) const {
-  constexpr std::size_t group = ImplicitRTree::group;
+std::size_t HilbertSort::places() const {
   std::size_t places = 0;
   for (std::size_t at = 0; at < used_; ++at) {
-    if (at > 0) places = block_count(places, group) * group;
-    places += begins_[at + 1] - begins_[at];
+    places = round_up(places) + begins_[at + 1] - begins_[at];
   }
-  arrays.resize(places);
-  std::size_t place = 0;
-  for (std::size_t at = 0; at < used_; ++at) {
-    for (; place % group != 0; ++place) arrays.set(place, Aabb::empty(), 0);
-    const std::size_t begin = begins_[at];
-    const std::size_t members = begins_[at + 1] - begin;
-    for_each_block(executor, members, boxes_at_once,
-                   [&](std::size_t, std::size_t first, std::size_t last) {
-                     std::array<std::uint32_t, boxes_at_once> ids;
-                     for (std::size_t i = first; i < last; ++i) ids[i - first] = id(begin + i);
-                     arrays.set(place + first, boxes, std::span(ids).first(last - first));
-                   });
-    place += members;
+  return places;
+}
+
+void HilbertSort::gather(std::span<const Aabb> boxes, std::size_t first, std::size_t last,
+                         AabbSoA& arrays) const {
+  std::size_t place = 0;  // of the class's first box
+  for (std::size_t at = 0; at < used_ && place < last; ++at) {
+    const std::size_t end = place + begins_[at + 1] - begins_[at];
+    std::array<std::uint32_t, boxes_at_once> ids;
+    const std::size_t to = std::min(end, last);
+    for (std::size_t from = std::max(place, first); from < to; from += ids.size()) {
+      const std::size_t count = std::min(ids.size(), to - from);
+      for (std::size_t i = 0; i < count; ++i) ids[i] = id(begins_[at] + (from - place) + i);
+      arrays.set(from, boxes, std::span(ids).first(count));
+    }
+    place = round_up(end);
+    for (std::size_t i = std::max(end, first); i < std::min(place, last); ++i) {
+      arrays.set(i, Aabb::empty(), 0);
+    }
   }
 }
 

@@ -37,8 +37,12 @@ class HilbertSort {
   static constexpr int key_bits = 35;
   std::uint64_t key(std::size_t i) const { return order_[i] >> id_bits_; }
 
-  // Writes the boxes and their ids to their places; a free place gets an empty box with id 0.
-  void gather(Executor& executor, std::span<const Aabb> boxes, AabbSoA& arrays) const;
+  // The number of places that gather() fills.
+  std::size_t places() const;
+  // Writes the boxes and ids of the places first <= i < last; a free place gets an empty box with id
+  // 0. `first` is a multiple of 256.
+  void gather(std::span<const Aabb> boxes, std::size_t first, std::size_t last,
+              AabbSoA& arrays) const;
 
   std::size_t held_bytes() const;
 

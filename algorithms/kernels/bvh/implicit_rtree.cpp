@@ -2,6 +2,7 @@
 #include "algorithms/kernels/bvh/implicit_rtree.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "algorithms/core/executor/parallel_blocks.h"
@@ -33,26 +34,38 @@ std::size_t children_of(std::span<const std::uint32_t> parents, std::size_t size
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/bvh/implicit_rtree.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
 
-// Computes the bounds of each 16 boxes of `below`, which is padded with empty boxes.
-void bound(Executor& executor, const AabbSoA& below, AabbSoA& above) {
-  const std::size_t count = block_count(below.size(), fan);
-  above.resize(count);
-  for_each_block(executor, count, 256, [&](std::size_t, std::size_t first, std::size_t last) {
-    switch (isa()) {
-      case Isa::avx512: return avx512::bound(below, above, first, last);
-      case Isa::avx2: return avx2::bound(below, above, first, last);
-      case Isa::baseline: return baseline::bound(below, above, first, last);
-    }
-  });
+// Computes the bounds of the 16 boxes below each of these nodes; `below` is padded with empty boxes.
+void bound(const AabbSoA& below, AabbSoA& above, std::size_t first, std::size_t last) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::bound(below, above, first, last);
+    case Isa::avx2: return avx2::bound(below, above, first, last);
+    case Isa::baseline: return baseline::bound(below, above, first, last);
+  }
 }
 
 }  // namespace
 
-void ImplicitRTree::fit(Executor& executor) {
+void ImplicitRTree::resize(std::size_t count) {
+  levels_[0].resize(count);
   // The levels of blocks and groups always exist.
   for (used_ = 1; used_ < 3 || levels_[used_ - 1].size() > 1; ++used_) {
     if (levels_.size() == used_) levels_.emplace_back();
-    bound(executor, levels_[used_ - 1], levels_[used_]);
+    levels_[used_].resize(block_count(levels_[used_ - 1].size(), fan));
+  }
+}
+
+void ImplicitRTree::bound_groups(std::size_t first, std::size_t last) {
+  bound(levels_[0], levels_[1], first / fan, block_count(last, fan));
+  bound(levels_[1], levels_[2], first / group, block_count(last, group));
+}
+
+void ImplicitRTree::bound_above(Executor& executor) {
+  constexpr std::size_t nodes_a_task = 256;
+  for (std::size_t level = 3; level < used_; ++level) {
+    for_each_block(executor, levels_[level].size(), nodes_a_task,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     bound(levels_[level - 1], levels_[level], first, last);
+                   });
   }
 }
 
@@ -103,6 +116,27 @@ std::size_t list_overlaps(const ImplicitRTree& tree, const Aabb& box, RTreeScrat
     case Isa::avx2: return avx2::list(tree, box, scratch);
     default: return baseline::list(tree, box, scratch);
   }
+}
+
+// A pair of two of the bodies counts at the smaller id.
+void search_bodies(Executor& executor, const ImplicitRTree& tree, std::span<const Aabb> boxes,
+                   std::span<const std::uint32_t> bodies, const BodyMarks& asked,
+                   std::vector<RTreeScratch>& scratch, PairSink& sink) {
+  constexpr std::size_t bodies_a_task = 64;
+  sink.start(block_count(bodies.size(), bodies_a_task));
+  const auto search = [&](std::size_t task, int worker) {
+    RTreeScratch& own = scratch[static_cast<std::size_t>(worker)];
+    const std::size_t last = std::min((task + 1) * bodies_a_task, bodies.size());
+    for (std::size_t i = task * bodies_a_task; i < last; ++i) {
+      const std::uint32_t a = bodies[i];
+      if (boxes[a].is_empty()) continue;
+      const std::size_t found = list_overlaps(tree, boxes[a], own);
+      for (const std::uint32_t b : std::span(own.children).first(found)) {
+        if (a < b || (a > b && !asked.has(b))) sink.chunk(task).push(a, b);
+      }
+    }
+  };
+  executor.run(sink.chunks().size(), std::cref(search));
 }
 
 }  // namespace touchstone

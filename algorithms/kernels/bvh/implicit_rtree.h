@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "algorithms/broad_phase_work.h"
+#include "algorithms/core/body_marks.h"
 #include "algorithms/core/executor/executor.h"
+#include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/structure_box.h"
 #include "algorithms/kernels/boxes/aabb_soa.h"
@@ -28,11 +30,22 @@ class ImplicitRTree {
 
   ImplicitRTree() : levels_(1) { levels_.reserve(9); }  // enough for 2^32 boxes
 
-  // The boxes: the caller fills them in and then calls fit().
+  // Makes the tree over `count` boxes, at least one. fill(first, last) is called for ranges of them,
+  // each of which begins at a multiple of `group`, and writes those boxes to boxes(). What a task has
+  // filled in it bounds at once, while it has it in the cache.
+  template <class Fill>
+  void fit(Executor& executor, std::size_t count, const Fill& fill) {
+    constexpr std::size_t places_a_task = 4 * group;
+    resize(count);
+    for_each_block(executor, count, places_a_task,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     fill(first, last);
+                     bound_groups(first, last);
+                   });
+    bound_above(executor);
+  }
   AabbSoA& boxes() { return levels_[0]; }
   const AabbSoA& boxes() const { return levels_[0]; }
-  // Computes the bounds of the boxes as they are; there is at least one.
-  void fit(Executor& executor);
 
   std::size_t groups() const { return (boxes().size() + group - 1) / group; }
   // levels()[0] holds the boxes, levels()[1] the bounds of blocks of them, levels()[2] those of
@@ -45,6 +58,12 @@ class ImplicitRTree {
   std::size_t held_bytes() const;
 
  private:
+  void resize(std::size_t count);
+  // Computes the bounds of the blocks and groups of these boxes.
+  void bound_groups(std::size_t first, std::size_t last);
+  // Computes the bounds of the levels above the groups.
+  void bound_above(Executor& executor);
+
   std::vector<AabbSoA> levels_;
   std::size_t used_ = 1;
 };
@@ -66,5 +85,15 @@ void pair_group(const ImplicitRTree& tree, std::size_t group, RTreeScratch& scra
 
 // Writes the ids of the boxes that overlap `box` to scratch.children, and returns their number.
 std::size_t list_overlaps(const ImplicitRTree& tree, const Aabb& box, RTreeScratch& scratch);
+
+// Returns true if searches for so many bodies alone take less than one for all.
+constexpr bool are_few(std::size_t bodies, std::size_t all) { return 8 * bodies <= all; }
+
+// Writes each pair of boxes that overlap and of which one body, or both, is among `bodies`: what
+// BroadPhase::find_pairs_of does. The tree is that of these boxes, `asked` marks the bodies, and
+// `scratch` holds one entry for each worker. The order of the pairs does not depend on the width.
+void search_bodies(Executor& executor, const ImplicitRTree& tree, std::span<const Aabb> boxes,
+                   std::span<const std::uint32_t> bodies, const BodyMarks& asked,
+                   std::vector<RTreeScratch>& scratch, PairSink& sink);
 
 }  // namespace touchstone

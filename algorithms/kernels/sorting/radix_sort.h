@@ -52,10 +52,12 @@ class RadixSort {
  private:
   static constexpr std::size_t least_block = 2048;
 
-  // Sixteen blocks of one size spread evenly over 2, 4 or 8 threads. Smaller blocks would not pay
-  // for their histograms; larger ones leave the cache.
+  // Sixteen blocks of one size spread evenly over 2, 4 or 8 threads; four of fewer items do, which
+  // else would be scattered in so short runs that threads share their cache lines. Smaller blocks
+  // would not pay for their histograms; larger ones leave the cache.
   static std::size_t block_size_of(std::size_t items) {
-    return std::clamp(block_count(items, 16), least_block, std::size_t{8192});
+    if (items <= 16 * least_block) return std::max(block_count(items, 4), least_block);
+    return std::min(block_count(items, 16), std::size_t{8192});
   }
 
   // One thread counts the digits of two passes at once.

@@ -232,7 +232,7 @@ TEST_F(Work, IsOfTheFrameAtHand) {
     const auto algorithm = entry->make(executor);
     PairSink sink;
     Random random(3);
-    const std::vector<Aabb> many = uniform_boxes(random, 900, 0.2f);
+    const std::vector<Aabb> many = uniform_boxes(random, 900, 0.05f);
     const std::vector<Aabb> few = uniform_boxes(random, 30, 0.2f);
     algorithm->build(many);
     algorithm->find_pairs(sink);
@@ -240,7 +240,7 @@ TEST_F(Work, IsOfTheFrameAtHand) {
     algorithm->update({many, {}, {}, {}});
     algorithm->find_pairs(sink);
     const std::string& name = entry->info.name;
-    // Pairs are kept once it has been seen that nothing moves.
+    // Pairs are kept once it has been seen that nothing moves, and by a list where they are few.
     if (name == "verlet-list" || name == "dynamic-bvh" || name == "auto") {
       EXPECT_LT(algorithm->work().box_tests, of_many.box_tests);
     } else {

@@ -20,7 +20,7 @@ class ChoiceByCounts : public testing::Test {
     answers_ = {};
     answers_.is_known = true;
     answers_.pairs = 3 * bodies;
-    choice_.start(Candidate::packed_rtree, bodies);
+    choice_.start(Candidate::verlet_list, bodies);
   }
   // Returns the first of so many frames in which the candidate is chosen; -1 if in none.
   int frames_until(Candidate candidate, int frames, float step, std::size_t axes = 3) {
@@ -46,7 +46,6 @@ class ChoiceByCounts : public testing::Test {
   Random random_{23};
   std::vector<Aabb> boxes_;
   std::vector<std::uint32_t> moved_;
-  bool are_large_ = false;
   Tally asks_;  // in each frame
   Answers answers_;
   Choice choice_;
@@ -120,23 +119,27 @@ TEST_F(ChoiceByCounts, ChangesLessAndLessOften) {
   EXPECT_GT(waits.back(), 4 * waits[1]);
 }
 
-TEST_F(ChoiceByCounts, OfBodiesThatAllMoveDependsOnThePairsAndOnSizes) {
-  constexpr Candidate list = Candidate::verlet_list, tree = Candidate::packed_rtree;
-  const auto choose = [&](std::size_t bodies, std::size_t pairs) {
-    start(bodies, bodies);
-    answers_.pairs = pairs;
-    // Every fiftieth is a hundred times as large where sizes differ.
-    for (std::size_t id = 0; are_large_ && id < bodies; id += 50) boxes_[id].max[0] += 5;
-    frames_until(Candidate::dynamic_bvh, 5, 1e-3f);
-    return choice_.candidate();
+TEST_F(ChoiceByCounts, OfManyThatMoveIsTheVerletList) {
+  const auto wants_bvh = [&](std::size_t bodies, std::size_t movers, std::size_t pairs,
+                             bool is_known = true) {
+    start(bodies, movers);
+    answers_.is_known = is_known;
+    answers_.pairs = pairs * bodies / 2;
+    const bool is_bvh = frames_until(bvh, 5, 1e-3f) == 0;
+    EXPECT_EQ(choice_.candidate(), is_bvh ? bvh : Candidate::verlet_list);
+    return is_bvh;
   };
-  for (const bool are_large : {false, true}) {
-    are_large_ = are_large;
-    EXPECT_EQ(choose(2'000, 1'000), list);
-    EXPECT_EQ(choose(2'000, 6'000), tree);
-    EXPECT_EQ(choose(4'000, 12'000), are_large ? tree : list);
+  for (const std::size_t bodies : {2'000, 400'001}) {
+    for (const std::size_t pairs : {1, 6, 60}) {
+      EXPECT_TRUE(wants_bvh(bodies, bodies / 32, pairs));
+      EXPECT_FALSE(wants_bvh(bodies, bodies / 5, pairs));
+    }
+    EXPECT_TRUE(wants_bvh(bodies, bodies / 10, 1));
+    EXPECT_TRUE(wants_bvh(bodies, bodies / 20, 6));
+    EXPECT_FALSE(wants_bvh(bodies, bodies / 10, 6));
+    EXPECT_FALSE(wants_bvh(bodies, bodies / 32 + 1, 60));
+    EXPECT_FALSE(wants_bvh(bodies, bodies / 10, 1, false));
   }
-  EXPECT_EQ(choose(400'001, 1'000), tree);
 }
 
 }  // namespace

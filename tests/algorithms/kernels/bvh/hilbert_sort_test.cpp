@@ -29,7 +29,11 @@ class CurveOrderTest : public testing::Test {
     AabbSoA arrays;
     order.make(executor, boxes);
     EXPECT_FALSE(order.empty());
-    order.gather(executor, boxes, arrays);
+    arrays.resize(order.places());
+    for_each_block(executor, order.places(), 512,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     order.gather(boxes, first, last, arrays);
+                   });
     return arrays;
   }
   static bool is_free(const AabbSoA& arrays, std::size_t place) {
@@ -50,16 +54,11 @@ class CurveOrderTest : public testing::Test {
   static double spread(const AabbSoA& arrays) {
     Executor executor(1);
     ImplicitRTree tree;
-    tree.boxes().resize(arrays.size());
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
-      Aabb box;
-      for (int axis = 0; axis < 3; ++axis) {
-        box.min[static_cast<std::size_t>(axis)] = arrays.min(axis)[i];
-        box.max[static_cast<std::size_t>(axis)] = arrays.max(axis)[i];
+    tree.fit(executor, arrays.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        tree.boxes().set(i, arrays.box(i), arrays.ids()[i]);
       }
-      tree.boxes().set(i, box, arrays.ids()[i]);
-    }
-    tree.fit(executor);
+    });
     return tree.spread();
   }
 

@@ -32,11 +32,11 @@ TEST(ImplicitRTree, ListsWhatABoxOverlaps) {
   for (const std::size_t count : {1u, 15u, 16u, 17u, 256u, 257u, 5000u}) {
     const std::vector<Aabb> boxes = random_boxes(count, 3);
     ImplicitRTree tree;
-    tree.boxes().resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      tree.boxes().set(i, boxes[i], static_cast<std::uint32_t>(i));
-    }
-    tree.fit(executor);
+    tree.fit(executor, count, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        tree.boxes().set(i, boxes[i], static_cast<std::uint32_t>(i));
+      }
+    });
     RTreeScratch scratch;
     std::size_t hits = 0;
     for (const Aabb& box : random_boxes(50, 2)) {
@@ -71,11 +71,11 @@ TEST(ImplicitRTree, PairsAreThoseThatOverlapInOneOrderAtEveryLevel) {
       if (side == 0) std::ranges::fill(boxes, Aabb{{0, 0, 0}, {1, 1, 1}});
       for (std::size_t i = 40; i < count; i += 41) boxes[i] = Aabb::empty();
       ImplicitRTree tree;
-      tree.boxes().resize(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        tree.boxes().set(i, boxes[i], static_cast<std::uint32_t>(i));
-      }
-      tree.fit(executor);
+      tree.fit(executor, count, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          tree.boxes().set(i, boxes[i], static_cast<std::uint32_t>(i));
+        }
+      });
       std::vector<IndexPair> expected;
       for (std::uint32_t a = 0; a < count; ++a) {
         for (std::uint32_t b = a + 1; b < count; ++b) {
