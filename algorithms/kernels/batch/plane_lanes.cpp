@@ -6,7 +6,6 @@
 #include <bit>
 #include <concepts>
 #include <cstring>
-#include <new>
 
 #include "algorithms/kernels/batch/pair_lanes.h"
 #include "algorithms/kernels/batch/prefetch.h"
@@ -17,10 +16,9 @@ namespace {
 
 using simd::Quad;
 
-// The plane of pair i, where it was copied to.
+// The plane of pair i.
 const CarriedPlane& plane_of(const PlaneTable& table, std::size_t i) {
-  const std::byte* const memory = table.memory + PlaneTable::memory_bytes * table.memory_of[i];
-  return *std::launder(reinterpret_cast<const CarriedPlane*>(memory));
+  return carried_plane_at(table.memory + PlaneTable::memory_bytes * table.memory_of[i]);
 }
 
 void write_parted(Outcome& outcome) {

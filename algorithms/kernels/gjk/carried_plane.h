@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <new>
 
 #include "algorithms/core/pose.h"
 
@@ -58,16 +59,24 @@ class CarriedPlane {
 };
 
 inline std::uint32_t CarriedPlane::sum() const {
-  std::array<std::uint64_t, 5> words;
-  static_assert(sizeof words == sizeof *this);
-  std::memcpy(words.data(), this, sizeof words);
+  static_assert(sizeof(CarriedPlane) == 5 * sizeof(std::uint64_t));
+  const auto word = [this](std::size_t k) {
+    std::uint64_t two;
+    std::memcpy(&two, reinterpret_cast<const std::byte*>(this) + k * sizeof two, sizeof two);
+    return two;
+  };
   // An odd multiplier of our own choice, and an offset, so that zeros have a sum other than zero.
   constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15;
-  std::uint64_t mixed = words[0] + 1;
-  for (std::size_t k = 1; k < 4; ++k) mixed = mixed * multiplier + words[k];
+  std::uint64_t mixed = word(0) + 1;
+  for (std::size_t k = 1; k < 4; ++k) mixed = mixed * multiplier + word(k);
   std::uint32_t radius_b;
   std::memcpy(&radius_b, &radius_b_, sizeof radius_b);
   return static_cast<std::uint32_t>((mixed * multiplier + radius_b) * multiplier >> 32);
+}
+
+// The plane that was copied to the begin of a pair's memory.
+inline const CarriedPlane& carried_plane_at(const std::byte* memory) {
+  return *std::launder(reinterpret_cast<const CarriedPlane*>(memory));
 }
 
 }  // namespace touchstone

@@ -28,10 +28,10 @@ TOUCHSTONE_TARGET bool parts_at(const std::byte* plane, const Pose& pose_a, cons
   const Numbers from_a = seen_from(a, normal, offset * normal);
   const Numbers from_b = seen_from(b, normal, normal * normal);
 
-  std::array<float, 3> lengths;
-  std::memcpy(lengths.data(), plane + 6 * sizeof(float), sizeof lengths);
-  const double reach = lengths[0], radius_a = lengths[1], radius_b = lengths[2];
-  const Numbers off_a = (from_a - in_a) * radius_a, off_b = (from_b - in_b) * radius_b;
+  const Numbers lengths = kept_at(plane, 5);  // the last of in_b before them
+  const double reach = lengths[1], radius_a = lengths[2], radius_b = lengths[3];
+  const Numbers off_a = (from_a - in_a) * __builtin_shufflevector(lengths, lengths, 2, 2, 2, 2);
+  const Numbers off_b = (from_b - in_b) * __builtin_shufflevector(lengths, lengths, 3, 3, 3, 3);
   const Numbers sums = paired_sums(three_of(off_a * off_a + off_b * off_b), magnitudes(offset));
   const double bend = sums[0] + sums[2], length = sums[1] + sums[3];
   const double excess = from_b[3] - 1;
