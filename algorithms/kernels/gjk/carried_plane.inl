@@ -14,9 +14,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> kept_at(const std::byte* plane,
 // either body from what the body carries, the gap along n is at least
 //   n . offset - reach - (|n| - 1) balls - radius_a |d_a| - radius_b |d_b|,
 // where the balls are those that round the bodies' cores: they are part of the radii. Instead of
-// the roots, x + y < g is tested by 2 (x^2 + y^2) < g^2. `plane` is a CarriedPlane.
-TOUCHSTONE_TARGET bool parts_at(const std::byte* plane, const Pose& pose_a, const Pose& pose_b,
+// the roots, x + y < g is tested by 2 (x^2 + y^2) < g^2.
+TOUCHSTONE_TARGET bool parts_at(const CarriedPlane& carried, const Pose& pose_a, const Pose& pose_b,
                                 double margin) {
+  const auto* const plane = reinterpret_cast<const std::byte*>(&carried);
   using Numbers = Quad<double>;
   constexpr double rounding = CarriedPlane::rounding;
   const QuadColumns a = columns_at(pose_a), b = columns_at(pose_b);
@@ -37,5 +38,6 @@ TOUCHSTONE_TARGET bool parts_at(const std::byte* plane, const Pose& pose_a, cons
   const double excess = from_b[3] - 1;
   const double gap = from_a[3] - reach - (radius_a + radius_b + margin) * std::abs(excess) -
                      2 * rounding * length - margin;
-  return gap > 0 && gap * gap > 2 * (1 + rounding) * bend && excess < 1 && are_below_two(a, b);
+  return gap > 0 && gap * gap > 2 * (1 + rounding) * bend && excess < 1 && are_below_two(a, b) &&
+         carried.is_own();
 }
