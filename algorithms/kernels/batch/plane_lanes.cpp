@@ -6,21 +6,18 @@
 #include <bit>
 #include <concepts>
 #include <cstring>
-#include <new>
 
-#include "algorithms/kernels/batch/pair_lanes.h"
 #include "algorithms/kernels/batch/prefetch.h"
 #include "algorithms/kernels/gjk/carried_plane.h"
+#include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {
 namespace {
 
 using simd::Quad;
 
-// The plane of pair i, where it was copied to.
-const CarriedPlane& plane_of(const PlaneTable& table, std::size_t i) {
-  const std::byte* const memory = table.memory + PlaneTable::memory_bytes * table.memory_of[i];
-  return *std::launder(reinterpret_cast<const CarriedPlane*>(memory));
+const std::byte* memory_of(const PlaneTable& table, std::size_t i) {
+  return table.memory + PlaneTable::memory_bytes * table.memory_of[i];
 }
 
 void write_parted(Outcome& outcome) {
@@ -34,10 +31,17 @@ void write_parted(Outcome& outcome) {
 
 std::size_t part_one_by_one(const PlaneTable& table, Outcome* outcomes, const PlaneRest& rest) {
   const BodyPairs& pairs = table.pairs;
+  const std::size_t size = pairs.first.size();
+  constexpr std::size_t ahead = 8;  // pairs, about as many as it takes to fetch one
   std::size_t count = 0;
-  for (std::size_t i = 0; i < pairs.first.size(); ++i) {
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i + ahead < size) {
+      prefetch(&pairs.poses[pairs.first[i + ahead]], sizeof(Pose));
+      prefetch(&pairs.poses[pairs.second[i + ahead]], sizeof(Pose));
+      prefetch(memory_of(table, i + ahead), 1);
+    }
     const Pose &a = pairs.poses[pairs.first[i]], &b = pairs.poses[pairs.second[i]];
-    const CarriedPlane& plane = plane_of(table, i);
+    const CarriedPlane& plane = carried_plane_at(memory_of(table, i));
     if (plane.parts(a, b, table.margin)) {
       write_parted(outcomes[i]);
       continue;
@@ -59,9 +63,10 @@ std::size_t part_by_planes(const PlaneTable& table, Outcome* outcomes, const Pla
   switch (isa()) {
     case Isa::avx512: return avx512::part_pairs(table, outcomes, rest);
     case Isa::avx2: return avx2::part_pairs(table, outcomes, rest);
+    // Vectors of four doubles are two there, and take longer than the four numbers of one plane.
     case Isa::baseline: break;
   }
-  return baseline::part_pairs(table, outcomes, rest);
+  return part_one_by_one(table, outcomes, rest);
 }
 
 }  // namespace touchstone

@@ -3,7 +3,7 @@
 //
 // A lane makes the operations of CarriedPlane::parts in another order, so its proof is that one's.
 // No shape is read.
-// Cost:    27 products a pair, and the loads of two poses and of 40 bytes.
+// Cost:    27 products a pair, nine of integers, and the loads of two poses and of 40 bytes.
 #pragma once
 
 #include <array>

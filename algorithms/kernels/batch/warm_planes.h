@@ -91,8 +91,8 @@ std::span<const std::uint32_t> WarmPlanes::answer(Task task, const Batch& batch,
 template <class Batch>
 bool WarmPlanes::answer_alone(Task task, const Batch& batch, std::size_t i, Outcome& outcome,
                               double margin) {
-  CarriedPlane plane;
-  std::memcpy(&plane, batch.memory[batch.memory_of[i]].bytes.data(), sizeof plane);
+  // Loads of its vectors would wait for the writes of a copy.
+  const CarriedPlane& plane = carried_plane_at(batch.memory[batch.memory_of[i]].bytes.data());
   const bool measured = asks_distance(task);
   if (!plane.parts(batch.pairs.poses[batch.pairs.first[i]],
                    batch.pairs.poses[batch.pairs.second[i]], measured ? margin : 0)) {

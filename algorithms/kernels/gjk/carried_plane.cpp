@@ -61,9 +61,8 @@ CarriedPlane CarriedPlane::make(const Vec3d& normal, double gap, double radius_a
 }
 
 bool CarriedPlane::parts(const Pose& pose_a, const Pose& pose_b, double margin) const {
-  const auto* const bytes = reinterpret_cast<const std::byte*>(this);
   const auto parts_now = isa() == Isa::baseline ? baseline::parts_at : avx2::parts_at;
-  return parts_now(bytes, pose_a, pose_b, margin) && is_own();
+  return parts_now(*this, pose_a, pose_b, margin);
 }
 
 Vec3d CarriedPlane::normal(const Pose& pose_a, const Pose& pose_b) const {

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <new>
 
 #include "algorithms/core/pose.h"
 
@@ -47,10 +48,19 @@ class CarriedPlane {
   // entries are below two, that of a part of d is at most 36 u.
   static constexpr double rounding = 64 * 0x1p-53;
 
+  // The sum over the numbers is that of their bits times these factors, modulo 2^32 - 1, plus one,
+  // so that zeros have another one than zero. No factor is another one times a power of two or its
+  // negative, so one or two changed bits change the sum; factors have 28 bits, so nine products fit
+  // 64 bits. plane_lanes.inl makes the same sum. The factors are our own choice.
+  static constexpr std::array<std::uint32_t, 9> factors{0xd2e6b43, 0xf2a74df, 0xa69e0d3,
+                                                        0xe513271, 0xa6a3a45, 0x8c5c7fd,
+                                                        0x928b2f3, 0xd23f083, 0x892f903};
+  static constexpr std::uint64_t sum_of_zeros = 1;
+
  private:
   std::uint32_t sum() const;
 
-  // carried_plane.inl and plane_lanes.inl read these nine numbers in this order.
+  // carried_plane.inl and plane_lanes.inl read these ten numbers in this order.
   std::array<float, 3> in_a_{}, in_b_{};  // the normal from a to b in the axes of either body
   float reach_ = 0;  // metres: how far both bodies reach along it, together, and rounding in radii
   float radius_a_ = 0, radius_b_ = 0;  // metres: greatest distance of a point from the origin
@@ -58,16 +68,21 @@ class CarriedPlane {
 };
 
 inline std::uint32_t CarriedPlane::sum() const {
-  std::array<std::uint64_t, 5> words;
-  static_assert(sizeof words == sizeof *this);
-  std::memcpy(words.data(), this, sizeof words);
-  // An odd multiplier of our own choice, and an offset, so that zeros have a sum other than zero.
-  constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15;
-  std::uint64_t mixed = words[0] + 1;
-  for (std::size_t k = 1; k < 4; ++k) mixed = mixed * multiplier + words[k];
-  std::uint32_t radius_b;
-  std::memcpy(&radius_b, &radius_b_, sizeof radius_b);
-  return static_cast<std::uint32_t>((mixed * multiplier + radius_b) * multiplier >> 32);
+  static_assert(sizeof(CarriedPlane) == 4 * (factors.size() + 1));
+  std::uint64_t sum = sum_of_zeros;
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    std::uint32_t word;
+    std::memcpy(&word, reinterpret_cast<const std::byte*>(this) + k * sizeof word, sizeof word);
+    sum += std::uint64_t{factors[k]} * word;
+  }
+  // The upper half weighs 2^32, which is 1 modulo 2^32 - 1.
+  for (int turn = 0; turn < 2; ++turn) sum = (sum >> 32) + (sum & 0xffffffff);
+  return static_cast<std::uint32_t>(sum);
+}
+
+// The plane that was copied to the begin of a pair's memory.
+inline const CarriedPlane& carried_plane_at(const std::byte* memory) {
+  return *std::launder(reinterpret_cast<const CarriedPlane*>(memory));
 }
 
 }  // namespace touchstone

@@ -14,9 +14,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> kept_at(const std::byte* plane,
 // either body from what the body carries, the gap along n is at least
 //   n . offset - reach - (|n| - 1) balls - radius_a |d_a| - radius_b |d_b|,
 // where the balls are those that round the bodies' cores: they are part of the radii. Instead of
-// the roots, x + y < g is tested by 2 (x^2 + y^2) < g^2. `plane` is a CarriedPlane.
-TOUCHSTONE_TARGET bool parts_at(const std::byte* plane, const Pose& pose_a, const Pose& pose_b,
+// the roots, x + y < g is tested by 2 (x^2 + y^2) < g^2.
+TOUCHSTONE_TARGET bool parts_at(const CarriedPlane& carried, const Pose& pose_a, const Pose& pose_b,
                                 double margin) {
+  const auto* const plane = reinterpret_cast<const std::byte*>(&carried);
   using Numbers = Quad<double>;
   constexpr double rounding = CarriedPlane::rounding;
   const QuadColumns a = columns_at(pose_a), b = columns_at(pose_b);
@@ -28,14 +29,15 @@ TOUCHSTONE_TARGET bool parts_at(const std::byte* plane, const Pose& pose_a, cons
   const Numbers from_a = seen_from(a, normal, offset * normal);
   const Numbers from_b = seen_from(b, normal, normal * normal);
 
-  std::array<float, 3> lengths;
-  std::memcpy(lengths.data(), plane + 6 * sizeof(float), sizeof lengths);
-  const double reach = lengths[0], radius_a = lengths[1], radius_b = lengths[2];
-  const Numbers off_a = (from_a - in_a) * radius_a, off_b = (from_b - in_b) * radius_b;
+  const Numbers lengths = kept_at(plane, 5);  // the last of in_b before them
+  const double reach = lengths[1], radius_a = lengths[2], radius_b = lengths[3];
+  const Numbers off_a = (from_a - in_a) * __builtin_shufflevector(lengths, lengths, 2, 2, 2, 2);
+  const Numbers off_b = (from_b - in_b) * __builtin_shufflevector(lengths, lengths, 3, 3, 3, 3);
   const Numbers sums = paired_sums(three_of(off_a * off_a + off_b * off_b), magnitudes(offset));
   const double bend = sums[0] + sums[2], length = sums[1] + sums[3];
   const double excess = from_b[3] - 1;
   const double gap = from_a[3] - reach - (radius_a + radius_b + margin) * std::abs(excess) -
                      2 * rounding * length - margin;
-  return gap > 0 && gap * gap > 2 * (1 + rounding) * bend && excess < 1 && are_below_two(a, b);
+  return gap > 0 && gap * gap > 2 * (1 + rounding) * bend && excess < 1 && are_below_two(a, b) &&
+         carried.is_own();
 }

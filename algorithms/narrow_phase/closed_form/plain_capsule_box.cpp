@@ -7,6 +7,7 @@
 // |q_j d_i - q_i d_j|) / |(d_i, d_j)|. Rounding of q and d moves a body by as much, and a depth by no more.
 #include "algorithms/narrow_phase/closed_form/plain_capsule_box.h"
 
+#include <bit>
 #include <limits>
 
 #include "algorithms/kernels/simd/vector.h"
