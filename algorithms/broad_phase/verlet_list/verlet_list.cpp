@@ -60,8 +60,8 @@ class VerletList final : public BroadPhase {
   std::vector<StructureBox> structure() const override;
 
  private:
-  static constexpr std::size_t block_size = 4096;
-  static constexpr std::size_t groups_a_task = 4;
+  static constexpr std::size_t block_size = 1024;
+  static constexpr std::size_t groups_a_task = 2;
   static constexpr std::size_t escaped_a_task = 32;
   static constexpr int most_wait = 8;          // frames
   static constexpr double most_spread = 1.25;  // growth of the blocks with which an order is kept
