@@ -26,7 +26,7 @@ float longest_side(const Aabb& box) {
 
 // The step between the samples of so many boxes: odd, since what alternates may move alike.
 std::size_t stride_of(std::size_t boxes) {
-  constexpr std::size_t enough = 256;
+  constexpr std::size_t enough = 128;
   return boxes / enough | 1;
 }
 
