@@ -83,7 +83,7 @@ class PackedRTree final : public BroadPhase {
   }
 
  private:
-  static constexpr std::size_t groups_a_task = 4;
+  static constexpr std::size_t groups_a_task = 2;
 
   std::size_t groups() const { return order_.empty() ? 0 : tree_.groups(); }
   void fit(std::span<const Aabb> boxes) {

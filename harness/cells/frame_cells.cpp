@@ -85,7 +85,7 @@ class LoopPlayer {
 
   void prepare() {
     algorithm_.reset();
-    executor_ = std::make_unique<Executor>(threads_);
+    executor_ = std::make_unique<Executor>(threads_, Pinning::one_a_thread);
     algorithm_ = entry_->make(*executor_);
     algorithm_->build(loop_->boxes.front());
     // The first call of find_changes tells all pairs.

@@ -26,7 +26,7 @@ float longest_side(const Aabb& box) {
 
 // The step between the samples of so many boxes: odd, since what alternates may move alike.
 std::size_t stride_of(std::size_t boxes) {
-  constexpr std::size_t enough = 256;
+  constexpr std::size_t enough = 128;
   return boxes / enough | 1;
 }
 
@@ -71,7 +71,7 @@ MeanMotion mean_motion(const AabbSoA& then, std::span<const Aabb> now) {
 
 void grow_boxes(Executor& executor, std::span<const Aabb> now, std::vector<Aabb>& reference,
                 int age, double frames, const MeanMotion& mean) {
-  constexpr std::size_t block_size = 4096;
+  constexpr std::size_t block_size = 1024;
   const auto growth = static_cast<float>(frames);
   constexpr float most = std::numeric_limits<float>::max();  // finite, as all boxes are
   const auto share = static_cast<float>(mean.share);

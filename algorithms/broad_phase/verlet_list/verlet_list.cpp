@@ -3,7 +3,7 @@
 // Paper:   Verlet, "Computer 'Experiments' on Classical Fluids. I", Physical Review 159, 1967
 //          (neighbour lists); the search is the packed R-tree's (kernels/bvh/implicit_rtree.h).
 // Steps:   1. Measure how far bodies move in a frame, from a sample (box_motion.cpp). While there is no
-//             list, the R-tree has the boxes of the frame before, and up to seven frames go without
+//             list, the R-tree has the boxes of the frame before, and up to fifteen frames go without
 //             the measurement.
 //          2. Choose for how many frames a list is cheapest (rebuild_interval.cpp). If for none,
 //             search the boxes of this frame with the packed R-tree, and end.
@@ -60,10 +60,10 @@ class VerletList final : public BroadPhase {
   std::vector<StructureBox> structure() const override;
 
  private:
-  static constexpr std::size_t block_size = 4096;
-  static constexpr std::size_t groups_a_task = 4;
+  static constexpr std::size_t block_size = 1024;
+  static constexpr std::size_t groups_a_task = 2;
   static constexpr std::size_t escaped_a_task = 32;
-  static constexpr int most_wait = 8;          // frames
+  static constexpr int most_wait = 16;         // frames
   static constexpr double most_spread = 1.25;  // growth of the blocks with which an order is kept
 
   // Loads the tree with these boxes, in the order of earlier ones while that is good.

@@ -43,6 +43,27 @@ TEST(Executor, NoTwoTasksShareAWorkerAtOnce) {
   EXPECT_EQ(clashes, 0);
 }
 
+// Each thread has a range of its own, and takes what is left of the other's.
+TEST(Executor, ATaskThatWaitsLeavesItsRangeToOthers) {
+  constexpr std::size_t tasks = 64;
+  for (const std::size_t waiting : {std::size_t{0}, tasks / 2}) {
+    Executor executor(2);
+    std::atomic<std::size_t> others{0};
+    executor.run(tasks, [&](std::size_t task, int) {
+      if (task != waiting) {
+        ++others;
+        return;
+      }
+      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+      while (others < tasks - 1 && std::chrono::steady_clock::now() < end) {
+        std::this_thread::yield();
+      }
+      EXPECT_EQ(others, tasks - 1);
+    });
+    EXPECT_EQ(others, tasks - 1);
+  }
+}
+
 #if defined(__linux__)
 TEST(Executor, PinnedThreadsHaveAProcessorEach) {
   // The test runs in a thread of its own, because pins stay.
