@@ -235,8 +235,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned parted_lanes(const NumbersOfPairs& 
   constexpr std::size_t width = Simd<double>::width;
   const std::size_t size = table.pairs.first.size();
   std::size_t count = 0;
-  // The numbers of pairs are found some groups before they are used, while they are fetched.
-  constexpr std::size_t groups = 4;
+  // The numbers of pairs are fetched while those of about 30 pairs before them are used.
+  constexpr std::size_t groups = 32 / width;
   NumbersOfPairs numbers[groups];
   for (std::size_t k = 0; k + 1 < groups && k * width < size; ++k) {
     find_numbers(table, k * width, numbers[k]);
