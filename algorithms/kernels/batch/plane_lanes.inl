@@ -235,14 +235,16 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned parted_lanes(const NumbersOfPairs& 
   constexpr std::size_t width = Simd<double>::width;
   const std::size_t size = table.pairs.first.size();
   std::size_t count = 0;
-  // The numbers of a group of pairs are found while those of the group before it are used.
-  NumbersOfPairs numbers[2];
-  find_numbers(table, 0, numbers[0]);
+  // The numbers of pairs are fetched while those of about 30 pairs before them are used.
+  constexpr std::size_t groups = 32 / width;
+  NumbersOfPairs numbers[groups];
+  for (std::size_t k = 0; k + 1 < groups && k * width < size; ++k) {
+    find_numbers(table, k * width, numbers[k]);
+  }
   for (std::size_t begin = 0; begin < size; begin += width) {
-    const NumbersOfPairs& own = numbers[begin / width % 2];
-    if (begin + width < size) {
-      find_numbers(table, begin + width, numbers[(begin / width + 1) % 2]);
-    }
+    const NumbersOfPairs& own = numbers[begin / width % groups];
+    const std::size_t ahead = begin + (groups - 1) * width;
+    if (ahead < size) find_numbers(table, ahead, numbers[ahead / width % groups]);
     const std::size_t end = std::min(begin + width, size);
     const unsigned parted = parted_lanes(own, table.margin, begin, end, rest.directions);
     const unsigned all = (1u << (end - begin)) - 1;
