@@ -68,8 +68,8 @@ class ImplicitRTree {
   std::size_t used_ = 1;
 };
 
-// Lists and counters of a search; one for each worker.
-struct RTreeScratch {
+// Lists and counters of a search; one for each worker, which shares no cache line with that of another.
+struct alignas(64) RTreeScratch {
   std::vector<std::uint32_t> nodes, children;  // nodes of two consecutive levels
   AabbStack blocks;                            // bounds and numbers of the blocks near the group
   std::vector<std::uint32_t> others;           // blocks that overlap one of the group's
