@@ -5,8 +5,9 @@
 // Steps:   1. Start with the Verlet list, which needs no earlier frame and builds the packed R-tree.
 //          2. In each update count the bodies that moved, came or went, and take the pairs of the
 //             frame before (choice.cpp).
-//          3. Few changes want the dynamic BVH, the fewer the more pairs there are; others the Verlet list, which chooses itself between
-//             a list and the packed R-tree by counts (verlet_list/rebuild_interval.cpp).
+//          3. Few changes want the dynamic BVH, the fewer the more pairs there are; others the Verlet
+//             list, which chooses itself between a list and the packed R-tree by counts
+//             (verlet_list/rebuild_interval.cpp).
 //          4. When another one has been wanted for some frames in a row, build it with this frame's
 //             boxes, and drop the one before. The first frame after a build suffices.
 //          5. While changes are few, look now and then how far some of the bodies move, and estimate

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 namespace touchstone {
+
 bool Choice::update_slowly(const FrameChange& change, const Answers& answers) {
   const Candidate wanted =
       are_few(change, answers) ? Candidate::dynamic_bvh : Candidate::verlet_list;

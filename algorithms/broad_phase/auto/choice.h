@@ -67,8 +67,8 @@ class Choice {
            candidate == Candidate::incremental_sweep_and_prune;
   }
   // True if the changes are few enough for a world that nearly rests, or if bodies only move and are
-  // in so few pairs that the dynamic BVH costs less than the packed R-tree. What is chosen is kept up
-  // to twice the threshold, or a quarter above these costs. The two for such worlds alone tell changes
+  // in so few pairs that the dynamic BVH costs a fifth less than the packed R-tree. What is chosen is
+  // kept up to twice the threshold, or while it costs no more. The two for such worlds alone tell changes
   // without all pairs.
   bool are_few(const FrameChange& change, const Answers& answers) const {
     const std::size_t churn = change.inserted.size() + change.removed.size();
@@ -79,7 +79,7 @@ class Choice {
     const auto bodies = static_cast<double>(bodies_);
     const double pairs_a_body = answers.pairs_among(bodies) / bodies;
     return moving_cost(pairs_a_body) * static_cast<double>(changes) <=
-           (is_kept ? 1.25 : 1.0) * searching_cost(pairs_a_body) * bodies;
+           (is_kept ? 1.0 : 0.8) * searching_cost(pairs_a_body) * bodies;
   }
   // Returns what update does where it is not one of the two for such worlds that goes on.
   bool update_slowly(const FrameChange& change, const Answers& answers);

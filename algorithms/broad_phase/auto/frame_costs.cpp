@@ -44,7 +44,7 @@ double incremental_sweep_and_prune_cost(const FrameCounts& frame) {
 
 double moving_cost(double pairs_a_body) { return 17 + 37 * pairs_a_body; }
 
-double searching_cost(double pairs_a_body) { return 0.8 * (6.5 + 0.9 * pairs_a_body); }
+double searching_cost(double pairs_a_body) { return 6.5 + 0.9 * pairs_a_body; }
 
 double dynamic_bvh_build_cost(const FrameCounts& frame) {
   return 60 * frame.bodies + 25 * frame.pairs;

@@ -33,8 +33,8 @@ struct FrameCounts {
 // were measured: elsewhere ratios and differences have a meaning, the numbers have none.
 double dynamic_bvh_cost(const FrameCounts& frame);
 double incremental_sweep_and_prune_cost(const FrameCounts& frame);
-// What a body that moves costs the dynamic BVH where many do and all pairs are asked for, and a fifth
-// less than what each body costs the packed R-tree, in nanoseconds of the same machine.
+// What a body that moves costs the dynamic BVH where many do and all pairs are asked for, and what
+// each body costs the packed R-tree, in nanoseconds of the same machine.
 double moving_cost(double pairs_a_body);
 double searching_cost(double pairs_a_body);
 double dynamic_bvh_build_cost(const FrameCounts& frame);

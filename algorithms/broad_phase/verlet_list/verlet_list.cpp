@@ -50,6 +50,7 @@ class VerletList final : public BroadPhase {
     boxes_ = boxes;
     is_ordered_ = false;
     until_look_ = wait_ = 1;
+    asks_for_all_ = true;
     search_anew();
   }
 
@@ -101,7 +102,7 @@ class VerletList final : public BroadPhase {
   }
   void recall_boxes();
   double choose_frames(const MeanMotion& motion) {
-    return asks_for_all_ ? interval_.choose(motion, boxes_.size(), pairs_) : 0;
+    return asks_for_all_ && !order_.empty() ? interval_.choose(motion, boxes_.size(), pairs_) : 0;
   }
   void make_list(const MeanMotion& motion, double frames);
   bool find_escaped(const FrameChange& change);
@@ -153,8 +154,9 @@ void VerletList::make_list(const MeanMotion& motion, double frames) {
   grow_boxes(executor_, boxes_, reference_, age_, frames, motion);
   age_ = 0;
   load(reference_);
+  listed_ = !order_.empty();
+  if (!listed_) return;
   search_all(candidates_);
-  listed_ = true;
   escaped_flag_.assign(boxes_.size(), 0);
   escaped_.clear();
   searched_ = 0;
@@ -257,6 +259,7 @@ void VerletList::search_escaped(std::size_t first, std::size_t last, RTreeScratc
 }
 
 Status VerletList::find_pairs(PairSink& sink) {
+  asks_for_all_ = true;
   if (!listed_) {
     search_all(sink);
     pairs_ = sink.size();
@@ -287,10 +290,9 @@ Status VerletList::find_pairs(PairSink& sink) {
 }
 
 Status VerletList::find_pairs_of(std::span<const std::uint32_t> bodies, PairSink& sink) {
-  asks_for_all_ = !are_few(bodies.size(), boxes_.size());
-  if (listed_ || asks_for_all_ || order_.empty()) {
-    return BroadPhase::find_pairs_of(bodies, sink);
-  }
+  const bool few = are_few(bodies.size(), boxes_.size());
+  if (listed_ || !few || order_.empty()) return BroadPhase::find_pairs_of(bodies, sink);
+  if (!bodies.empty()) asks_for_all_ = false;
   asked_.set(bodies);
   search_bodies(executor_, tree_, boxes_, bodies, asked_, scratch_, sink);
   return Status::ok;

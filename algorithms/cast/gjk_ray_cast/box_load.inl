@@ -2,6 +2,10 @@
 // before they fill a lane.
 #include "algorithms/kernels/simd/quad_sums.inl"
 
+// Four numbers are read where three are meant.
+static_assert(offsetof(Motion, rotation_vector) == offsetof(Motion, displacement) + sizeof(Vec3d));
+static_assert(offsetof(Shape, radii) == offsetof(Shape, half_extents) + sizeof(Vec3d));
+
 // Whether all four numbers are below the limit in magnitude; false for NaN.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE QuadBits are_within(const Quad<double>& q, double limit) {
   return magnitudes(q) < Quad<double>{limit, limit, limit, limit};
@@ -21,9 +25,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool are_nearly_rotations(const Pose& pose_a
   return (all[0] & all[1] & all[2] & all[3]) != 0;
 }
 
-// Balls around the boxes stay apart if the square of the least distance of their centres is above that of the sum of
-// their radii. Twice the squares' sum is no less. A matrix that is nearly a rotation lengthens by less than 1.015; the rest of 1.05 is
-// for rounding, which is 1e-6 of the balls where lengths are below 1e9 of theirs.
+// Balls around the boxes stay apart if the square of the least distance of their centres is above
+// that of the sum of their radii. Twice the squares' sum is no less. A matrix that is nearly a
+// rotation lengthens by less than 1.015; the rest of 1.05 is for rounding, which is 1e-6 of the balls
+// where lengths are below 1e9 of theirs.
 TOUCHSTONE_TARGET LaneLoad ask_boxes(const Shape& a, const Pose& pose_a, const Motion& motion_a,
                                      const Shape& b, const Pose& pose_b, const Motion& motion_b,
                                      BoxLane& lane) {

@@ -32,7 +32,8 @@ class Executor {
   // in [0, width), and two calls with the same worker never run at once. The first exception of a
   // body is rethrown. Tasks run in any order. For results that do not depend on the width, cut the
   // work by its size and not by the width, and let each task write only to its own places. One
-  // thread at a time calls it, or a body does, whose worker then does all tasks of the inner call.
+  // thread at a time calls it, or a body does, whose worker then does all tasks of the inner call,
+  // unless the outer call has a single task: then the crew shares the inner one.
   //
   // The caller works alone where more threads would be slower. It knows so from what the tasks of
   // the same type of body took before, so give each loop a body of a type of its own, as a lambda

@@ -26,8 +26,11 @@ void write_parted(Outcome& outcome) {
   outcome.iterations = outcome.support_calls = 0;
 }
 
+#if defined(__x86_64__)
+#define TOUCHSTONE_NO_BASELINE
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/batch/plane_lanes.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
+#endif
 
 std::size_t part_one_by_one(const PlaneTable& table, Outcome* outcomes, const PlaneRest& rest) {
   const BodyPairs& pairs = table.pairs;
@@ -57,15 +60,14 @@ std::size_t part_one_by_one(const PlaneTable& table, Outcome* outcomes, const Pl
 }  // namespace
 
 std::size_t part_by_planes(const PlaneTable& table, Outcome* outcomes, const PlaneRest& rest) {
+#if defined(__x86_64__)
   // A few pairs fill too little of the lanes.
   constexpr std::size_t few = 2;
-  if (table.pairs.first.size() <= few) return part_one_by_one(table, outcomes, rest);
-  switch (isa()) {
-    case Isa::avx512: return avx512::part_pairs(table, outcomes, rest);
-    case Isa::avx2: return avx2::part_pairs(table, outcomes, rest);
-    // Vectors of four doubles are two there, and take longer than the four numbers of one plane.
-    case Isa::baseline: break;
-  }
+  const bool is_few = table.pairs.first.size() <= few;
+  if (!is_few && isa() == Isa::avx512) return avx512::part_pairs(table, outcomes, rest);
+  if (!is_few && isa() == Isa::avx2) return avx2::part_pairs(table, outcomes, rest);
+#endif
+  // At baseline, vectors of four doubles are two, and take longer than the four numbers of one plane.
   return part_one_by_one(table, outcomes, rest);
 }
 

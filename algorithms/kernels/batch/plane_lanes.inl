@@ -1,5 +1,5 @@
-// The loop of plane_lanes.h. plane_lanes.cpp includes this file once for each level of vector
-// instructions, inside that level's namespace.
+// The loop of plane_lanes.h. plane_lanes.cpp includes this file for AVX2 and for AVX-512, inside
+// that level's namespace.
 #include "algorithms/kernels/simd/vector3.inl"
 
 // The squares of what a normal, seen from a body, is off from what the body carries. The columns are
@@ -70,14 +70,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void quads_at(const double* const* from, std
 }
 
 // The vectors of floats with as many lanes.
-#if defined(__x86_64__)
 template <class Lanes>
 using FloatLanes =
     std::conditional_t<Lanes::width == 8, simd::avx2::Simd<float>, simd::baseline::Simd<float>>;
-#else
-template <class Lanes>
-using FloatLanes = simd::baseline::Simd<float>;
-#endif
 
 // Transposes the four floats from `first` on at each lane's address. They are widened after that,
 // because shuffles of doubles move twice as many bytes.
@@ -106,12 +101,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void floats_at(const std::byte* const* from,
 template <class Lanes>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Lanes::Vector widened(
     const typename FloatLanes<Lanes>::Vector& x) {
-#if defined(__x86_64__)
-  if constexpr (Lanes::width == 8)
+  if constexpr (Lanes::width == 8) {
     return _mm512_cvtps_pd(x);
-  else
-#endif
+  } else {
     return widen<float>(x);
+  }
 }
 
 // The products of the floats' bits, as integers, with a number.
@@ -123,18 +117,12 @@ template <class Lanes>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename WithIntegers<Lanes>::Integers bits_times(
     const typename FloatLanes<Lanes>::Vector& x, std::uint32_t number) {
   using Integers = typename WithIntegers<Lanes>::Integers;
-#if defined(__x86_64__)
   if constexpr (Lanes::width == 8) {
     const __m512i bits = _mm512_cvtepu32_epi64(std::bit_cast<__m256i>(x));
     return std::bit_cast<Integers>(_mm512_mul_epu32(bits, _mm512_set1_epi64(number)));
-  } else if constexpr (std::is_same_v<Lanes, simd::avx2::Simd<double>>) {
+  } else {
     const __m256i bits = _mm256_cvtepu32_epi64(std::bit_cast<__m128i>(x));
     return std::bit_cast<Integers>(_mm256_mul_epu32(bits, _mm256_set1_epi64x(number)));
-  } else
-#endif
-  {
-    using Words __attribute__((vector_size(16))) = std::uint32_t;
-    return __builtin_convertvector(std::bit_cast<Words>(x), Integers) * number;
   }
 }
 
@@ -229,9 +217,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned parted_lanes(const NumbersOfPairs& 
   return parted;
 }
 
-[[maybe_unused]] TOUCHSTONE_TARGET std::size_t part_pairs(const PlaneTable& table,
-                                                          Outcome* outcomes,
-                                                          const PlaneRest& rest) {
+TOUCHSTONE_TARGET std::size_t part_pairs(const PlaneTable& table, Outcome* outcomes,
+                                         const PlaneRest& rest) {
   constexpr std::size_t width = Simd<double>::width;
   const std::size_t size = table.pairs.first.size();
   std::size_t count = 0;

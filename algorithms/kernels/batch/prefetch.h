@@ -1,5 +1,5 @@
 // Prefetching of memory before it is read. When a batch has many bodies of different shapes, their
-// data is in no near cache. Used by shape_prefetch.h and gjk-lanes.
+// data is in no near cache. Used by shape_prefetch.h, plane_lanes.h and gjk-lanes.
 #pragma once
 
 #include <algorithm>

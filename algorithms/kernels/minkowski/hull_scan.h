@@ -49,8 +49,8 @@ struct Found {
 
 inline constexpr std::size_t most_blocks = 16;  // blocks that are tested together
 
-// The vertices of a hull, with coordinates of at most 1 in magnitude. In double, those of a hull that `is_scanned_in_floats`
-// are there as floats too.
+// The vertices of a hull. In double those of some are there as floats too: of hulls for which
+// `is_scanned_in_floats` holds, and whose coordinates are at most 1 in magnitude.
 template <class Scalar>
 struct ScannedHull {
   std::span<const VertexBlock<Scalar>> blocks;

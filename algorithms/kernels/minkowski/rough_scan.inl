@@ -1,13 +1,14 @@
-// Part of hull_scan.h: the scan in floats, which read half as much and fill vectors twice as wide. Doubles decide between
-// those that floats do not tell apart. hull_scan.inl includes this file.
+// Part of hull_scan.h: the scan in floats, which read half as much and fill vectors twice as wide.
+// Doubles decide between those that floats do not tell apart. hull_scan.inl includes this file.
 
-// Returns the index that furthest_at(blocks, x, y, z) does. `rough` are the same vertices, rounded to floats, at most
-// `most_blocks`; coordinates are at most 1 in magnitude.
+// Returns the index that furthest_at(blocks, x, y, z) does. `rough` are the same vertices, rounded
+// to floats, at most `most_blocks`; coordinates are at most 1 in magnitude.
 //
-// Let s be |x| + |y| + |z|, in a range where no product of weight is lost to underflow. A value in floats is off from
-// that in double by at most 6 u s, u = 2^-24: a rounding each of the direction, the vertex, the product and two sums, and
-// those in double. A vertex whose value is less than the greatest by twice that, and by what rounding takes of s and of
-// the difference, 16 u s in all, is not the furthest.
+// Let s be |x| + |y| + |z|, in a range where no product of weight is lost to underflow. A value in
+// floats is off from that in double by at most 6 u s, u = 2^-24: a rounding each of the direction,
+// the vertex, the product and two sums, and those in double. A vertex whose value is less than the
+// greatest by twice that, and by what rounding takes of s and of the difference, 16 u s in all, is
+// not the furthest.
 TOUCHSTONE_TARGET inline std::uint32_t furthest_by_floats(
     const VertexBlock<float>* rough, std::span<const VertexBlock<double>> blocks, double x,
     double y, double z) {

@@ -54,7 +54,8 @@ void prepare_hull(SupportShape<Scalar>& shape, const Hull& hull) {
   } else {
     shape.vertices =
         hull_scan::blocks_of<Scalar>(scaled.size(), [&](std::size_t k) { return scaled[k]; });
-    if (sizeof(Scalar) == sizeof(double) &&
+    // Coordinates are above 1 where the unit is the greatest that there is.
+    if (sizeof(Scalar) == sizeof(double) && shape.size < shape.unit &&
         hull_scan::is_scanned_in_floats(shape.vertices.size())) {
       shape.rough = hull_scan::blocks_of<float>(scaled.size(), [&](std::size_t k) {
         return Vec3<float>(scaled[k].template cast<float>());

@@ -46,7 +46,7 @@ struct SupportShape {
   // Hull: its vertices for a scan, or, if there are many, their cube map `cells`.
   std::vector<hull_scan::VertexBlock<Scalar>> vertices;
   SupportCubeMap<Scalar> cells;
-  // In double: the vertices as floats, if there are so many that floats pay (`is_scanned_in_floats`).
+  // In double: the vertices as floats, if there are so many that floats pay.
   std::vector<hull_scan::VertexBlock<float>> rough;
   // The vertices once more, one after the other, for access to a single one.
   struct alignas(4 * sizeof(Scalar)) Corner {

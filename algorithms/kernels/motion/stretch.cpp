@@ -1,4 +1,4 @@
-// The products of a matrix's columns, and the choice of the level of vector instructions.
+// Selects the level of vector instructions of stretch.inl.
 #include "algorithms/kernels/motion/stretch.h"
 
 #include <algorithm>

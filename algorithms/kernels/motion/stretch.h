@@ -5,6 +5,7 @@
 
 namespace touchstone {
 
+// Of a matrix whose squares neither overflow nor underflow.
 struct Stretch {
   double most;   // an upper bound on the factor; tight for rotations
   double least;  // a lower bound on it, if the matrix is nearly a rotation, otherwise 0

@@ -13,6 +13,8 @@ TOUCHSTONE_TARGET Stretch stretch_at(const Pose& pose) {
   // |M x|^2 = x (M^T M) x >= 1 - |M^T M - I|.
   const Quad<double> off = squares - Quad<double>{1, 1, 1, 0};
   const Quad<double> terms = off * off + 2 * (skews * skews);
-  const double distance = std::sqrt(terms[0] + terms[1] + terms[2]);
-  return {.most = std::sqrt(greatest) * (1 + 1e-12), .least = std::max(0.0, 1 - distance)};
+  const double distance = (1 + 1e-15) * std::sqrt(terms[0] + terms[1] + terms[2]);
+  constexpr double rounding = 1e-15;
+  return {.most = std::sqrt(greatest) * (1 + 1e-12),
+          .least = std::max(0.0, 1 - rounding - distance)};
 }

@@ -2,18 +2,20 @@
 // instructions: in the namespaces baseline, avx2 and avx512, each with that level's names from the
 // namespace TOUCHSTONE_TARGET_NAMESPACE (simd by default), and with TOUCHSTONE_TARGET set to the
 // level's attribute. TOUCHSTONE_ONE_LEVEL makes all three the first; TOUCHSTONE_TWO_LEVELS makes
-// the third the second.
+// the third the second; TOUCHSTONE_NO_BASELINE leaves the first out, on x86-64 alone.
 
 #ifndef TOUCHSTONE_TARGET_NAMESPACE
 #define TOUCHSTONE_TARGET_NAMESPACE simd
 #endif
 
+#if !defined(TOUCHSTONE_NO_BASELINE)
 namespace baseline {
 using namespace TOUCHSTONE_TARGET_NAMESPACE::baseline;
 #define TOUCHSTONE_TARGET
 #include TOUCHSTONE_TARGET_INCLUDE
 #undef TOUCHSTONE_TARGET
 }  // namespace baseline
+#endif
 
 #if defined(__x86_64__) && !defined(TOUCHSTONE_ONE_LEVEL)
 namespace avx2 {

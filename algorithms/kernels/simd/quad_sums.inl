@@ -1,5 +1,5 @@
-// Numbers of a pose and sums over them, in vectors of four. Used by carried_plane and first_plane,
-// which include this file once for each level of vector instructions.
+// Numbers of a pose and sums over them, in vectors of four. Used by carried_plane, first_plane,
+// stretch and casts of boxes, which include this file once for each level of vector instructions.
 
 using QuadBits __attribute__((vector_size(32))) = std::int64_t;
 

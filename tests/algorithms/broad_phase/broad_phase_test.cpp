@@ -271,7 +271,7 @@ TEST_P(BroadPhases, FollowTheFrames) {
   }
 }
 
-// The first bodies come, and the last ones go, in an update.
+// The first bodies come, and the last ones go, in an update; nothing changes for some frames between.
 TEST_P(BroadPhases, FollowFromNothingToNothing) {
   Executor executor(2);
   const auto algorithm = entry().make(executor);
@@ -280,15 +280,21 @@ TEST_P(BroadPhases, FollowFromNothingToNothing) {
   Frames frames(std::vector<Aabb>{});
   algorithm->build(frames.boxes());
   EXPECT_TRUE(ordered_pairs(*algorithm, sink).empty());
-  for (const bool present : {true, false, true}) {
-    SCOPED_TRACE(present);
-    frames.next() =
-        present ? uniform_boxes(random, 60, 0.5f) : std::vector<Aabb>(60, Aabb::empty());
-    algorithm->update(frames.change());
-    frames.spoil_the_older();
-    const auto truth = true_pairs(frames.boxes());
-    EXPECT_EQ(truth.empty(), !present);
-    expect_truth(ordered_pairs(*algorithm, sink), truth, frames.boxes().size(), false);
+  bool present = false;
+  for (const int idle : {0, 0, 0, 1, 2, 2, 3, 3, 9, 9, 20, 40, 0, 1}) {
+    present = !present;
+    for (int frame = 0; frame <= idle; ++frame) {
+      SCOPED_TRACE(testing::Message() << "frame " << frame << " of " << idle + 1);
+      std::vector<Aabb> next(frames.boxes().begin(), frames.boxes().end());
+      if (frame == 0)
+        next = present ? uniform_boxes(random, 60, 0.5f) : std::vector<Aabb>(60, Aabb::empty());
+      frames.next() = std::move(next);
+      algorithm->update(frames.change());
+      frames.spoil_the_older();
+      const auto truth = true_pairs(frames.boxes());
+      EXPECT_EQ(truth.empty(), !present);
+      expect_truth(ordered_pairs(*algorithm, sink), truth, frames.boxes().size(), false);
+    }
   }
 }
 
