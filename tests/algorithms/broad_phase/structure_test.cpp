@@ -15,8 +15,9 @@
 namespace touchstone {
 namespace {
 
-// What a broad phase shows. A Verlet list has a tree while it has no list, and then fat boxes.
-enum class Kind { nothing, cells, intervals, tree, tree_or_fat_boxes };
+// What a broad phase shows. A Verlet list has a tree while it has no list, and then fat boxes; auto
+// shows what the one in charge does, which may be a sweep's intervals.
+enum class Kind { nothing, cells, intervals, tree, tree_or_fat_boxes, one_in_charge };
 
 const std::map<std::string, Kind> kinds = {
     {"naive", Kind::nothing},
@@ -31,7 +32,7 @@ const std::map<std::string, Kind> kinds = {
     {"packed-rtree", Kind::tree},
     {"dynamic-bvh", Kind::tree},
     {"verlet-list", Kind::tree_or_fat_boxes},
-    {"auto", Kind::tree_or_fat_boxes},
+    {"auto", Kind::one_in_charge},
 };
 
 std::vector<const BroadPhaseEntry*> all_of_ours() {
@@ -119,6 +120,15 @@ void check_intervals(const Structure& intervals, std::span<const Aabb> bodies) {
   EXPECT_TRUE(is_of(0) || is_of(1) || is_of(2));
 }
 
+// Whether the boxes are flat on all axes but one.
+bool are_intervals(const Structure& structure) {
+  return std::ranges::all_of(structure, [](const StructureBox& box) {
+    int flat = 0;
+    for (std::size_t i = 0; i < 3; ++i) flat += box.box.min[i] == box.box.max[i] ? 1 : 0;
+    return flat >= 2;
+  });
+}
+
 // A box around each body, in the order of the bodies.
 void check_fat_boxes(const Structure& boxes, std::span<const Aabb> bodies) {
   ASSERT_EQ(boxes.size(), bodies.size());
@@ -137,6 +147,9 @@ void check(Kind kind, const Structure& structure, std::span<const Aabb> boxes, b
     case Kind::cells: return check_cells(structure, bodies);
     case Kind::intervals: return check_intervals(structure, bodies);
     case Kind::tree: return check_tree(structure, bodies);
+    case Kind::one_in_charge:
+      if (!is_built && are_intervals(structure)) return check_intervals(structure, bodies);
+      [[fallthrough]];
     case Kind::tree_or_fat_boxes:
       return is_built || std::ranges::any_of(structure, &StructureBox::level)
                  ? check_tree(structure, bodies)
