@@ -10,6 +10,7 @@
 // Four numbers fill no wider vectors.
 #if !defined(TOUCHSTONE_TWO_LEVELS)
 #define TOUCHSTONE_TWO_LEVELS
+#define TOUCHSTONE_BOX_LOAD_HAS_TWO_LEVELS
 #endif
 #include "algorithms/kernels/simd/vector.h"
 
@@ -20,6 +21,10 @@ using simd::Quad;
 
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/cast/gjk_ray_cast/box_load.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
+#if defined(TOUCHSTONE_BOX_LOAD_HAS_TWO_LEVELS)
+#undef TOUCHSTONE_TWO_LEVELS
+#undef TOUCHSTONE_BOX_LOAD_HAS_TWO_LEVELS
+#endif
 
 }  // namespace
 

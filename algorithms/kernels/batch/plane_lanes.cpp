@@ -30,6 +30,7 @@ void write_parted(Outcome& outcome) {
 #define TOUCHSTONE_NO_BASELINE
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/batch/plane_lanes.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
+#undef TOUCHSTONE_NO_BASELINE
 #endif
 
 std::size_t part_one_by_one(const PlaneTable& table, Outcome* outcomes, const PlaneRest& rest) {

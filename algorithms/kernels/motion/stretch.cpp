@@ -11,6 +11,7 @@
 // Four numbers fill no wider vectors.
 #if !defined(TOUCHSTONE_TWO_LEVELS)
 #define TOUCHSTONE_TWO_LEVELS
+#define TOUCHSTONE_STRETCH_HAS_TWO_LEVELS
 #endif
 #include "algorithms/kernels/simd/vector.h"
 
@@ -21,6 +22,10 @@ using simd::Quad;
 
 #define TOUCHSTONE_TARGET_INCLUDE "algorithms/kernels/motion/stretch.inl"
 #include "algorithms/kernels/simd/foreach_target.inl"
+#if defined(TOUCHSTONE_STRETCH_HAS_TWO_LEVELS)
+#undef TOUCHSTONE_TWO_LEVELS
+#undef TOUCHSTONE_STRETCH_HAS_TWO_LEVELS
+#endif
 
 }  // namespace
 
