@@ -22,7 +22,9 @@
 //          Round shapes are cores with a radius, so that their shallow overlaps need no EPA. If the
 //          origin is too near the face that the search came through, a point behind that face is
 //          tried. Hulls of more than 192 vertices find support points by a cube map
-//          (kernels/minkowski/support_cube_map) instead of hill climbing. gjk-nesterov searches
+//          (kernels/minkowski/support_cube_map) instead of hill climbing, others by a look at all
+//          vertices; from 65 on, in double, floats leave the few that doubles decide between
+//          (kernels/minkowski/rough_scan). gjk-nesterov searches
 //          along a direction with momentum (Montaut, Le Lidec, Petrik, Sivic, Carpentier,
 //          "Collision detection accelerated: an optimization perspective", RSS 2022, algorithm 3;
 //          its normalised form if a core has corners) until that makes no progress, and continues

@@ -66,10 +66,10 @@ class Choice {
     return candidate == Candidate::dynamic_bvh ||
            candidate == Candidate::incremental_sweep_and_prune;
   }
-  // True if the changes are few enough for a world that nearly rests, or if bodies only move and are
-  // in so few pairs that the dynamic BVH costs a fifth less than the packed R-tree. What is chosen is
-  // kept up to twice the threshold, or while it costs no more. The two for such worlds alone tell changes
-  // without all pairs.
+  // True if the changes are few enough for a world that nearly rests, or if bodies only move and
+  // are in so few pairs that the dynamic BVH costs a fifth less than the packed R-tree. What is
+  // chosen is kept up to twice the threshold, or while it costs no more. The two for such worlds
+  // alone tell changes without all pairs.
   bool are_few(const FrameChange& change, const Answers& answers) const {
     const std::size_t churn = change.inserted.size() + change.removed.size();
     const std::size_t changes = change.moved.size() + churn;

@@ -16,7 +16,7 @@
 //          proven beyond rounding (MovingPair::rounding), as in gjk-ray-cast. GJK searches instead where no portal
 //          closes or it has no area, where the bodies overlap at the start, and where the path is below 1e-6 of
 //          the pair's unit. mpr-ray-cast-lanes takes the same steps for pairs of hulls, one in each lane of vectors
-//          (portal_lanes), each hull scanned by all of a vector; a lane that has ended takes the next pair.
+//          (portal_lanes), each hull scanned by all of a vector, from 65 vertices on in floats first; a lane that has ended takes the next pair.
 // Fails:   as gjk-ray-cast.
 // Cost:    O(1) space; a support call for each corner of the first portal, and one for each refinement, which
 //          takes no distance of a simplex. Lanes pay from two pairs in a batch; a pair alone takes longer in them.
