@@ -20,7 +20,8 @@
 // Departs: every lane takes each step, whatever the size of its simplex: all regions are computed
 //          and one is selected. Hulls of at most 16 vertices are rotated when their pair enters a
 //          lane; larger ones are scanned sixteen vertices at a time, one lane after the other, in
-//          double from 65 vertices on in floats first (kernels/minkowski/rough_scan). If the origin is too close to a face of the tetrahedron, a point behind that face is tried.
+//          double from 65 vertices on in floats first (kernels/minkowski/rough_scan). If the
+//          origin is too close to a face of the tetrahedron, a point behind that face is tried.
 //          In EPA nearest faces, visible faces and planes are computed for all lanes together,
 //          horizons one by one.
 //          In double, verdicts on cylinders, cones and ellipsoids are tried in lanes of floats
