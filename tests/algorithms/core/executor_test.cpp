@@ -43,23 +43,35 @@ TEST(Executor, NoTwoTasksShareAWorkerAtOnce) {
   EXPECT_EQ(clashes, 0);
 }
 
-// Each thread has a range of its own, and takes what is left of the other's.
+// Each thread has a range of its own, and takes what is left of the other's. The first loop tells that
+// tasks take so long that a thread which has fallen asleep is woken before the second one's first task,
+// which waits for it.
 TEST(Executor, ATaskThatWaitsLeavesItsRangeToOthers) {
+  using Clock = std::chrono::steady_clock;
   constexpr std::size_t tasks = 64;
   for (const std::size_t waiting : {std::size_t{0}, tasks / 2}) {
     Executor executor(2);
+    bool waits = false;
     std::atomic<std::size_t> others{0};
-    executor.run(tasks, [&](std::size_t task, int) {
+    const auto body = [&](std::size_t task, int) {
+      const auto begin = Clock::now();
+      if (!waits) {
+        while (Clock::now() < begin + std::chrono::microseconds(50)) {
+        }
+        return;
+      }
       if (task != waiting) {
         ++others;
         return;
       }
-      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-      while (others < tasks - 1 && std::chrono::steady_clock::now() < end) {
+      while (others < tasks - 1 && Clock::now() < begin + std::chrono::seconds(20)) {
         std::this_thread::yield();
       }
       EXPECT_EQ(others, tasks - 1);
-    });
+    };
+    executor.run(tasks, body);
+    waits = true;
+    executor.run(tasks, body);
     EXPECT_EQ(others, tasks - 1);
   }
 }
