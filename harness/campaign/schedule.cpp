@@ -16,6 +16,9 @@ constexpr std::size_t group_size = 4;
 constexpr double longest_sample = 3e-3;
 constexpr double shortest_sample = 0.25e-3;
 constexpr double greatest_window = 4096;  // frames
+// An algorithm that is updated may do at once what serves the frames after. Its window is then all
+// frames, or several times all, where the median candidate takes no more than this (seconds).
+constexpr double longest_pass = 0.2;
 
 std::size_t index_of(std::vector<Candidate>& candidates, const Candidate& wanted) {
   const auto at = std::ranges::find(candidates, wanted);
@@ -141,8 +144,11 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
     const double share = group.seconds / static_cast<double>(schedule.sets.size());
     const double seconds = std::clamp(share / samples, shortest_sample, longest_sample);
     const double mean = std::max(stats::median(std::move(means)), 1e-9);
-    set.window =
-        static_cast<std::uint32_t>(std::clamp(std::ceil(seconds / mean), 1.0, greatest_window));
+    double window = std::clamp(std::ceil(seconds / mean), 1.0, greatest_window);
+    const auto pass = static_cast<double>(frames - set.starts.front());
+    const bool updates = schedule.pairs[s] == nullptr && set.starts.front() > 0;
+    if (updates && mean * pass <= longest_pass) window = std::ceil(window / pass) * pass;
+    set.window = static_cast<std::uint32_t>(window);
   }
   return schedule;
 }

@@ -6,19 +6,47 @@
 #include <array>
 #include <cmath>
 
+#include "algorithms/core/isa.h"
+
 namespace touchstone {
 namespace {
 
-// Relative costs for each body: a search of the packed R-tree, and each pair found there; a list,
-// which grows the boxes too, and each candidate in it; the test of a candidate, and the check whether
-// a box has escaped from its grown one. They were fitted to frames of six scenes of 1,000 and 10,000
-// boxes with lists for 2 to 16 frames and with none.
-constexpr double search = 20;
-constexpr double search_pair = 2.8;
-constexpr double list = 38;
-constexpr double list_pair = 4;
-constexpr double test = 5.5;
-constexpr double look = 4.6;
+// Costs for each body, in nanoseconds of the machine that they were measured on; only their ratios
+// matter. The tests of candidates take as long at each level of vectors, and searches do not: without
+// AVX2 they cost three times as much, so lists pay for more scenes.
+struct Costs {
+  double search, search_pair;  // a search of the packed R-tree, and each pair found there
+  double list, list_pair;      // a list, which grows the boxes too, and each candidate in it
+  double look, test;           // the check whether a box has escaped, and the test of a candidate
+};
+
+// The costs where all lies in the caches, and where it does not. They were fitted to the parts of
+// frames of six scenes of 1,000 to 100,000 boxes, with lists for 2 to 32 frames and with none.
+struct Fit {
+  Costs near, far;
+};
+constexpr double near_bodies = 1e4, far_bodies = 1e5;
+
+constexpr Fit fit_of(Isa level) {
+  switch (level) {
+    case Isa::avx512: return {{6.2, 1.3, 13, 2.2, 2.9, 1.4}, {9.5, 1.9, 16, 2.7, 3.9, 2}};
+    case Isa::avx2: return {{7.5, 1.6, 15, 2.4, 2.9, 1.4}, {11.5, 2, 18, 2.8, 3.9, 2}};
+    case Isa::baseline: break;
+  }
+  return {{13, 10, 28, 10, 2.9, 1.4}, {21, 10, 34, 10.5, 3.9, 2}};
+}
+
+Costs costs_of(std::size_t bodies) {
+  const Fit fit = fit_of(isa());
+  const double ratio =
+      std::log(static_cast<double>(std::max<std::size_t>(bodies, 1)) / near_bodies);
+  const double way = std::clamp(ratio / std::log(far_bodies / near_bodies), 0.0, 1.0);
+  const auto at = [&](double Costs::*cost) {
+    return std::lerp(fit.near.*cost, fit.far.*cost, way);
+  };
+  return {at(&Costs::search),    at(&Costs::search_pair), at(&Costs::list),
+          at(&Costs::list_pair), at(&Costs::look),        at(&Costs::test)};
+}
 
 double a_body(std::size_t count, std::size_t bodies) {
   return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(bodies, 1));
@@ -31,14 +59,16 @@ double RebuildInterval::choose(const MeanMotion& motion, std::size_t bodies, std
   // Even if nothing overlaps yet, grown boxes will.
   const double found = std::max(a_body(pairs, bodies), 0.25);
   double best = 0;
-  double least = search + search_pair * found;
+  const Costs costs = costs_of(bodies);
+  double least = costs.search + costs.search_pair * found;
   for (const double frames : choices) {
     const double grown = 1 + growth_ * motion.share * frames;
     const double candidates = found * grown * grown * grown;
     // This bound keeps the memory in proportion to the output.
     if (candidates > 2.5 * found + 2) break;
     const double lasts = std::max(1.0, frames * lasted_);
-    const double cost = (list + list_pair * candidates) / lasts + test * candidates + look;
+    const double cost =
+        (costs.list + costs.list_pair * candidates) / lasts + costs.test * candidates + costs.look;
     if (cost < least) {
       least = cost;
       best = frames;

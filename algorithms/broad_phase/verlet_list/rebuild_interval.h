@@ -2,8 +2,8 @@
 // pairs is made for.
 //
 // A list over boxes grown for f frames costs a search every f frames and its tests in every frame,
-// and its length grows with the cube of the boxes' growth. All costs are counts, so that the choice
-// does not depend on measured times.
+// and its length grows with the cube of the boxes' growth. All costs are counts, whose weights depend
+// on the number of bodies and on the level of vectors, so that no measured time decides.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,7 @@ class RebuildInterval {
   void ended(int age, std::size_t bodies, std::size_t pairs);
 
  private:
-  // Growth of a box's side a frame, in units of the share. It begins low, since only lists that were
-  // made correct it.
-  double growth_ = 0.6;
+  double growth_ = 1.5;  // of a box's side a frame, in units of the share
   double lasted_ = 1;  // mean ratio of the age at which a list ended and the frames it was made for
   double share_ = 0;   // share of the last list
   double frames_ = 0;  // frames that it was made for

@@ -81,6 +81,22 @@ TEST_F(Runner, ChecksEveryFrameAndTakesTheSquaresAskedFor) {
   EXPECT_TRUE(std::filesystem::exists(out() / "machine.csv"));
 }
 
+// What an update does ahead for the frames after it is charged to it.
+TEST_F(Runner, SamplesOfUpdatesGoOverAllFrames) {
+  const campaign::Campaign c = campaign(
+      "broad = ['naive', 'verlet-list']\nnarrow = 'none'\nframes = 8\nseconds = 1e-6\n"
+      "squares = 6\nrounds = 1\nprocesses = 1");
+  const campaign::RunResult result = campaign::run_campaign(c, out());
+  int samples = 0;
+  for (const record::RawRow& row : result.findings.rows()) {
+    if (row.kind != record::RowKind::sample) continue;
+    ++samples;
+    EXPECT_GT(row.frames, 0);
+    EXPECT_EQ(row.frames % 7, 0) << "the frames after the first, which is built";
+  }
+  EXPECT_GT(samples, 0);
+}
+
 // The campaign has every broad phase with some narrow phases, and every narrow phase with one broad
 // phase.
 TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
