@@ -10,7 +10,7 @@
 //          3. Grow each box by its motion in that many frames, and list all pairs of grown boxes
 //             that overlap, with the packed R-tree.
 //          4. In each frame find the escaped boxes: those outside of their grown ones, and new
-//             ones. If they are too many, start at step 1.
+//             ones (escaped_boxes.cpp). If they are too many, start at step 1.
 //          5. Test the listed pairs of bodies that have not escaped (pair_tests.h).
 //          6. Search the R-tree for each escaped box, and test escaped boxes against each other.
 // Departs: each box grows by an amount that follows its own motion. Counts, not times, decide how
@@ -23,18 +23,16 @@
 // Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 80
 //          bytes a body and 12 a candidate.
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 
 #include "algorithms/broad_phase.h"
 #include "algorithms/broad_phase/verlet_list/box_motion.h"
+#include "algorithms/broad_phase/verlet_list/escaped_boxes.h"
 #include "algorithms/broad_phase/verlet_list/pair_tests.h"
 #include "algorithms/broad_phase/verlet_list/rebuild_interval.h"
 #include "algorithms/core/executor/parallel_blocks.h"
 #include "algorithms/core/memory_usage.h"
-#include "algorithms/kernels/boxes/aabb_measure.h"
-#include "algorithms/kernels/boxes/aabb_scan.h"
 #include "algorithms/kernels/bvh/hilbert_sort.h"
 #include "algorithms/kernels/bvh/implicit_rtree.h"
 
@@ -105,10 +103,7 @@ class VerletList final : public BroadPhase {
     return asks_for_all_ && !order_.empty() ? interval_.choose(motion, boxes_.size(), pairs_) : 0;
   }
   void make_list(const MeanMotion& motion, double frames);
-  bool find_escaped(const FrameChange& change);
   void search_all(PairSink& sink);
-  void search_escaped(std::size_t first, std::size_t last, RTreeScratch& scratch,
-                      PairBuffer& out) const;
 
   Executor& executor_;
   std::vector<RTreeScratch> scratch_;
@@ -126,13 +121,9 @@ class VerletList final : public BroadPhase {
   int until_look_ = 1, wait_ = 1;  // frames until motion is measured, while there is no list
   bool asks_for_all_ = true;       // the last question was for all pairs, or almost all
 
-  std::vector<std::uint8_t> escaped_flag_;  // 1 for an escaped box; indexed by body
-  std::vector<std::uint32_t> escaped_;      // escaped boxes: outside their grown ones, or new
-  std::size_t searched_ = 0;  // number of escaped boxes, summed over the frames of this list
-  AabbSoA escaped_boxes_;
-  std::vector<std::size_t> counts_;  // one for each block
-  std::size_t pairs_ = 0;            // number found by the last search for all
-  BodyMarks asked_;                  // scratch
+  EscapedBoxes escaped_;   // of the list
+  std::size_t pairs_ = 0;  // number found by the last search for all
+  BodyMarks asked_;        // scratch
 };
 
 // Writes the boxes of the frame before, which the tree holds while there is no list.
@@ -157,9 +148,7 @@ void VerletList::make_list(const MeanMotion& motion, double frames) {
   listed_ = !order_.empty();
   if (!listed_) return;
   search_all(candidates_);
-  escaped_flag_.assign(boxes_.size(), 0);
-  escaped_.clear();
-  searched_ = 0;
+  escaped_.start(boxes_.size());
   interval_.made(motion, frames, boxes_.size(), candidates_.size());
 }
 
@@ -168,59 +157,13 @@ void VerletList::search_all(PairSink& sink) {
                 std::bind_front(pair_group, std::cref(tree_)));
 }
 
-// Adds the boxes that have escaped and those that are new; returns false if they are so many that a
-// new list is cheaper.
-bool VerletList::find_escaped(const FrameChange& change) {
-  if (boxes_.size() > escaped_flag_.size()) {
-    escaped_flag_.resize(boxes_.size(), 0);
-    reference_.resize(boxes_.size(), Aabb::empty());
-  }
-  // Cost of searching for one escaped box, in units of a body's share of making the list.
-  constexpr std::size_t price = 32;
-  const std::size_t most = 64 + boxes_.size() / 64;
-  const auto has_escaped = [&](std::uint32_t id) {
-    return escaped_flag_[id] == 0 && !contains(reference_[id], boxes_[id]);
-  };
-  const std::span<const std::uint32_t> moved = change.moved;
-  counts_.resize(block_count(moved.size(), block_size));
-  for_each_block(executor_, moved.size(), block_size,
-                 [&](std::size_t block, std::size_t first, std::size_t last) {
-                   std::size_t count = 0;
-                   for (std::size_t i = first; i < last; ++i)
-                     count += has_escaped(moved[i]) ? 1 : 0;
-                   counts_[block] = count;
-                 });
-  std::size_t all = escaped_.size() + change.inserted.size();
-  for (const std::size_t count : counts_) all += count;
-  searched_ += all;
-  if (all > most || searched_ * price > boxes_.size() + 64 * price) return false;
-  const auto add = [&](std::uint32_t id) {
-    if (escaped_flag_[id] != 0) return;
-    escaped_flag_[id] = 1;
-    escaped_.push_back(id);
-  };
-  for (const std::uint32_t id : change.inserted) add(id);
-  for (std::size_t block = 0; block < counts_.size(); ++block) {
-    if (counts_[block] == 0) continue;
-    const std::size_t last = std::min((block + 1) * block_size, moved.size());
-    for (std::size_t i = block * block_size; i < last; ++i) {
-      if (has_escaped(moved[i])) add(moved[i]);
-    }
-  }
-  return true;
-}
-
 void VerletList::update(const FrameChange& change) {
   boxes_ = change.boxes;
   if (!change.inserted.empty() || !change.removed.empty()) is_ordered_ = false;
   MeanMotion motion;
   if (listed_) {
     ++age_;
-    if (find_escaped(change)) {
-      escaped_boxes_.gather(executor_, boxes_, escaped_.size(),
-                            [&](std::size_t i) { return escaped_[i]; });
-      return;
-    }
+    if (escaped_.add(executor_, change, reference_)) return;
     interval_.ended(age_, boxes_.size(), pairs_);
     motion = mean_motion(reference_, boxes_, age_);
   } else {
@@ -241,23 +184,6 @@ void VerletList::update(const FrameChange& change) {
   make_list(motion, frames);
 }
 
-// Writes pairs of the escaped boxes first <= i < last with boxes that have not escaped, and with
-// escaped boxes after them.
-void VerletList::search_escaped(std::size_t first, std::size_t last, RTreeScratch& scratch,
-                                PairBuffer& out) const {
-  for (std::size_t i = first; i < last; ++i) {
-    const std::uint32_t id = escaped_[i];
-    const std::size_t found = list_overlaps(tree_, boxes_[id], scratch);
-    scratch.work.candidates += static_cast<std::int64_t>(found);
-    for (std::size_t k = 0; k < found; ++k) {
-      const std::uint32_t other = scratch.children[k];
-      if (escaped_flag_[other] == 0 && overlap(boxes_[other], boxes_[id])) out.push(id, other);
-    }
-  }
-  const std::array columns{IndexRange{0, escaped_.size()}};
-  scan_boxes(escaped_boxes_, {first, last}, columns, out);
-}
-
 Status VerletList::find_pairs(PairSink& sink) {
   asks_for_all_ = true;
   if (!listed_) {
@@ -273,14 +199,12 @@ Status VerletList::find_pairs(PairSink& sink) {
     if (task >= candidates.size()) {
       const std::size_t first = (task - candidates.size()) * escaped_a_task;
       const std::size_t last = std::min(first + escaped_a_task, escaped_.size());
-      search_escaped(first, last, scratch_[static_cast<std::size_t>(worker)], out);
-    } else if (escaped_.empty()) {
+      escaped_.search(tree_, boxes_, first, last, scratch_[static_cast<std::size_t>(worker)], out);
+    } else if (escaped_.size() == 0) {
       write_overlapping(
           boxes_, candidates[task].pairs(), [](IndexPair) { return true; }, out);
     } else {
-      const auto stayed = [&](IndexPair pair) {
-        return (escaped_flag_[pair.a] | escaped_flag_[pair.b]) == 0;
-      };
+      const auto stayed = [&](IndexPair pair) { return !escaped_.has_either(pair); };
       write_overlapping(boxes_, candidates[task].pairs(), stayed, out);
     }
   };
@@ -304,7 +228,7 @@ BroadPhaseWork VerletList::work() const {
   std::size_t listed = 0;
   if (listed_) {
     for (const PairBuffer& chunk : candidates_.chunks()) listed += chunk.size();
-    search_escaped(0, escaped_.size(), scratch, pairs);
+    escaped_.search(tree_, boxes_, 0, escaped_.size(), scratch, pairs);
     const std::size_t among =
         escaped_.size() * (escaped_.size() - std::min<std::size_t>(1, escaped_.size())) / 2;
     listed += among;
@@ -313,8 +237,7 @@ BroadPhaseWork VerletList::work() const {
   } else {
     count_groups(groups(), scratch, std::bind_front(pair_group, std::cref(tree_)));
   }
-  scratch.work.bytes = sum_held_bytes(order_, tree_, reference_, escaped_flag_, escaped_,
-                                      escaped_boxes_, counts_, candidates_);
+  scratch.work.bytes = sum_held_bytes(order_, tree_, reference_, escaped_, candidates_);
   return scratch.work;
 }
 
@@ -325,7 +248,7 @@ std::vector<StructureBox> VerletList::structure() const {
   std::vector<StructureBox> grown;
   for (std::size_t id = 0; id < boxes_.size(); ++id) {
     if (boxes_[id].is_empty()) continue;
-    grown.push_back({escaped_flag_[id] != 0 ? boxes_[id] : reference_[id]});
+    grown.push_back({escaped_.has(id) ? boxes_[id] : reference_[id]});
   }
   return grown;
 }
