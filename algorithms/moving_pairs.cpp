@@ -6,9 +6,10 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <numeric>
 
 #include "algorithms/core/executor/parallel_blocks.h"
+#include "algorithms/kernels/boxes/aabb_scan.h"
+#include "algorithms/kernels/boxes/aabb_soa.h"
 #include "algorithms/kernels/motion/moving_boxes.h"
 #include "algorithms/kernels/motion/swept_box.h"
 
@@ -24,7 +25,39 @@ constexpr std::size_t sampled_a_block = 2;
 constexpr std::size_t least_others = 512;
 constexpr std::size_t others_part = 32;
 
+// Writes the bodies i * count / others of a sample to `ids`, for first <= i < last, and returns them.
+// A division for each would cost more than the rest.
+std::span<const std::uint32_t> sampled_ids(std::size_t first, std::size_t last, std::size_t count,
+                                           std::size_t others,
+                                           std::array<std::uint32_t, bodies_a_block>& ids) {
+  const std::size_t step = count / others, step_rest = count % others;
+  std::size_t body = first * count / others, rest = first * count % others;
+  for (std::size_t i = first; i < last; ++i) {
+    ids[i - first] = static_cast<std::uint32_t>(body);
+    body += step;
+    rest += step_rest;
+    if (rest >= others) {
+      rest -= others;
+      ++body;
+    }
+  }
+  return std::span(ids).first(last - first);
+}
+
 }  // namespace
+
+struct MovingPairs::Sample {
+  AabbSoA boxes;
+  PairSink overlaps;  // of the sampled bodies, each with all others of the sample
+};
+
+MovingPairs::MovingPairs(BroadPhase& broad_phase, Executor& executor, int parts)
+    : broad_phase_(&broad_phase),
+      executor_(&executor),
+      asked_parts_(parts),
+      sample_(std::make_unique<Sample>()) {}
+
+MovingPairs::~MovingPairs() = default;
 
 MovingBox moving_box(const Shape& shape, const Pose& pose, const Motion& motion) {
   return moving_box_of(shape, pose, motion);
@@ -34,40 +67,55 @@ Aabb swept_box(const MovingBox& body) { return swept_box_of(body, 0, 1); }
 
 // The number of pairs that a search on the boxes swept in the middle one of so many parts finds, as
 // a sample has it.
-double MovingPairs::expected_candidates(std::span<const MovingBox> bodies, int parts) {
+double MovingPairs::expected_candidates(std::span<const MovingBox> bodies,
+                                        std::span<const Aabb> swept, int parts) {
   const std::size_t count = bodies.size();
   const std::size_t others = std::min(count, std::max(least_others, count / others_part));
   const std::size_t own = std::min(sampled, others);
   const double begin = static_cast<double>(parts / 2) / parts;
   const double end = begin + 1.0 / parts;
-  sample_.resize(others);
-  for_each_block(*executor_, others, bodies_a_block,
-                 [&](std::size_t, std::size_t first, std::size_t last) {
-                   for (std::size_t i = first; i < last; ++i)
-                     sample_[i] = swept_box_of(bodies[i * count / others], begin, end);
-                 });
-  std::array<std::size_t, sampled> overlaps{};
-  for_each_block(*executor_, own, sampled_a_block,
-                 [&](std::size_t, std::size_t first, std::size_t last) {
-                   for (std::size_t k = first; k < last; ++k) {
-                     const std::size_t i = k * others / own;
-                     for (std::size_t j = 0; j < others; ++j)
-                       overlaps[k] += i != j && overlap(sample_[i], sample_[j]);
-                   }
-                 });
+  AabbSoA& boxes = sample_->boxes;
+  boxes.resize(others);
+  // Two loops, so that the executor knows what each takes.
+  if (parts == 1) {
+    for_each_block(*executor_, others, bodies_a_block,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     std::array<std::uint32_t, bodies_a_block> ids;
+                     boxes.set(first, swept, sampled_ids(first, last, count, others, ids));
+                   });
+  } else {
+    for_each_block(*executor_, others, bodies_a_block,
+                   [&](std::size_t, std::size_t first, std::size_t last) {
+                     std::array<std::uint32_t, bodies_a_block> ids;
+                     std::size_t i = first;
+                     for (const std::uint32_t id : sampled_ids(first, last, count, others, ids))
+                       boxes.set(i++, swept_box_of(bodies[id], begin, end), id);
+                   });
+  }
+  PairSink& overlaps = sample_->overlaps;
+  overlaps.start(block_count(own, sampled_a_block));
+  for_each_block(
+      *executor_, own, sampled_a_block,
+      [&](std::size_t block, std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+          const std::size_t i = k * others / own;
+          const IndexRange before = {0, i}, after = {i, others};
+          scan_boxes(boxes, {i, i + 1}, std::array{before, after}, overlaps.chunk(block));
+        }
+      });
   const double all = static_cast<double>(count);
-  return static_cast<double>(std::accumulate(overlaps.begin(), overlaps.end(), std::size_t{0})) /
-         2 * (all / static_cast<double>(own)) * (all / static_cast<double>(others));
+  return static_cast<double>(overlaps.size()) / 2 * (all / static_cast<double>(own)) *
+         (all / static_cast<double>(others));
 }
 
-int MovingPairs::cheapest_parts(std::span<const MovingBox> bodies) {
+int MovingPairs::cheapest_parts(std::span<const MovingBox> bodies, std::span<const Aabb> swept) {
   if (bodies.empty()) return 1;
   const double boxes = box_cost * static_cast<double>(bodies.size());
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   // As soon as the boxes alone cost more than the best so far, no further cut can pay.
   for (int parts = 1; parts <= most_parts && parts * boxes < least; parts *= 2) {
-    const double cost = parts * (boxes + expected_candidates(bodies, parts));
+    const double cost = parts * (boxes + expected_candidates(bodies, swept, parts));
     if (!(cost < least)) break;
     least = cost;
     best = parts;
@@ -75,7 +123,8 @@ int MovingPairs::cheapest_parts(std::span<const MovingBox> bodies) {
   return best;
 }
 
-void MovingPairs::sweep(std::span<const MovingBox> bodies, int part) {
+// Returns the boxes that bodies sweep in a part.
+std::span<const Aabb> MovingPairs::sweep(std::span<const MovingBox> bodies, int part) {
   std::vector<Aabb>& boxes = swept_[static_cast<std::size_t>(part)];
   boxes.resize(bodies.size());
   const double begin = static_cast<double>(part) / parts_;
@@ -85,6 +134,7 @@ void MovingPairs::sweep(std::span<const MovingBox> bodies, int part) {
                    for (std::size_t i = first; i < last; ++i)
                      boxes[i] = swept_box_of(bodies[i], begin, end);
                  });
+  return boxes;
 }
 
 void MovingPairs::keep_new(std::span<const MovingBox> bodies, int part,
@@ -116,13 +166,22 @@ void MovingPairs::keep_new(std::span<const MovingBox> bodies, int part,
 }
 
 Status MovingPairs::find_pairs(std::span<const MovingBox> bodies, std::vector<IndexPair>& pairs) {
+  whole_.resize(bodies.size());
+  for_each_block(*executor_, bodies.size(), bodies_a_block,
+                 [&](std::size_t, std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) whole_[i] = swept_box(bodies[i]);
+                 });
+  return find_pairs(bodies, whole_, pairs);
+}
+
+Status MovingPairs::find_pairs(std::span<const MovingBox> bodies, std::span<const Aabb> swept,
+                               std::vector<IndexPair>& pairs) {
   pairs.clear();
   candidates_ = 0;
-  parts_ = asked_parts_ > 0 ? asked_parts_ : cheapest_parts(bodies);
+  parts_ = asked_parts_ > 0 ? asked_parts_ : cheapest_parts(bodies, swept);
   swept_.resize(std::max(swept_.size(), static_cast<std::size_t>(parts_)));
   for (int part = 0; part < parts_; ++part) {
-    sweep(bodies, part);
-    broad_phase_->build(swept_[static_cast<std::size_t>(part)]);
+    broad_phase_->build(parts_ == 1 ? swept : sweep(bodies, part));
     const Status status = broad_phase_->find_pairs(found_);
     if (status != Status::ok) return status;
     candidates_ += found_.size();

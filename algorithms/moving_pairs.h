@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,22 +39,27 @@ class MovingPairs {
   static constexpr double box_cost = 12;
 
   // `parts` is 0, or a power of two up to most_parts. Both references outlive it.
-  MovingPairs(BroadPhase& broad_phase, Executor& executor, int parts = 0)
-      : broad_phase_(&broad_phase), executor_(&executor), asked_parts_(parts) {}
+  MovingPairs(BroadPhase& broad_phase, Executor& executor, int parts = 0);
+  ~MovingPairs();
 
   // Writes every pair whose moving boxes share a point in the step, each once, a < b, in an order
   // that does not depend on the executor's width. The boxes have no NaN. Returns what the broad
   // phase does; the pairs are all only with Status::ok.
   Status find_pairs(std::span<const MovingBox> bodies, std::vector<IndexPair>& pairs);
+  // The same where swept[i] == swept_box(bodies[i]) is known, as it is at little cost to a loop that
+  // makes the moving boxes.
+  Status find_pairs(std::span<const MovingBox> bodies, std::span<const Aabb> swept,
+                    std::vector<IndexPair>& pairs);
 
   // Of the last call: the parts, and the pairs that the broad phase found in all of them.
   int parts() const { return parts_; }
   std::size_t candidates() const { return candidates_; }
 
  private:
-  double expected_candidates(std::span<const MovingBox> bodies, int parts);
-  int cheapest_parts(std::span<const MovingBox> bodies);
-  void sweep(std::span<const MovingBox> bodies, int part);
+  double expected_candidates(std::span<const MovingBox> bodies, std::span<const Aabb> swept,
+                             int parts);
+  int cheapest_parts(std::span<const MovingBox> bodies, std::span<const Aabb> swept);
+  std::span<const Aabb> sweep(std::span<const MovingBox> bodies, int part);
   void keep_new(std::span<const MovingBox> bodies, int part, std::vector<IndexPair>& pairs);
 
   BroadPhase* broad_phase_;
@@ -61,8 +67,10 @@ class MovingPairs {
   int asked_parts_;
   int parts_ = 1;
   std::size_t candidates_ = 0;
-  std::vector<std::vector<Aabb>> swept_;  // for each part
-  std::vector<Aabb> sample_;
+  std::vector<std::vector<Aabb>> swept_;  // for each part, where there are several
+  std::vector<Aabb> whole_;               // swept in the step, where the caller has no boxes
+  struct Sample;
+  std::unique_ptr<Sample> sample_;
   PairSink found_, kept_;
 };
 

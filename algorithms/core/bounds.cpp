@@ -67,17 +67,20 @@ Interval extent(const Shape& shape, const Vec3d& row, double& magnitude) {
     magnitude = half;
     return Interval{-half, half};
   };
-  const double disc = shape.radius * length({row.x(), row.y(), 0});
+  // The radius of a disc across the body's axis, along the world axis.
+  const auto disc_extent = [&] { return shape.radius * length({row.x(), row.y(), 0}); };
   const double along = shape.half_length * row.z();
   switch (shape.kind) {
     case ShapeKind::sphere: return symmetric(shape.radius);
     case ShapeKind::capsule: return symmetric(std::abs(along) + shape.radius);
     case ShapeKind::box: return symmetric(row.cwiseAbs().dot(shape.half_extents));
-    case ShapeKind::cylinder: return symmetric(std::abs(along) + disc);
+    case ShapeKind::cylinder: return symmetric(std::abs(along) + disc_extent());
     case ShapeKind::ellipsoid: return symmetric(length(row.cwiseProduct(shape.radii)));
-    case ShapeKind::cone:
+    case ShapeKind::cone: {
+      const double disc = disc_extent();
       magnitude = std::abs(along) + disc;
       return {std::min(along, -along - disc), std::max(along, -along + disc)};
+    }
     case ShapeKind::hull: {
       Interval range{inf, -inf};
       magnitude = 0;
@@ -121,10 +124,7 @@ Aabb halfspace_box(const Shape& shape, const Pose& pose) {
   return box;
 }
 
-}  // namespace
-
-Aabb tight_box(const Shape& shape, const Pose& pose) {
-  if (shape.kind == ShapeKind::halfspace) return halfspace_box(shape, pose);
+Aabb bounded_box(const Shape& shape, const Pose& pose) {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     double magnitude = 0;
@@ -136,6 +136,12 @@ Aabb tight_box(const Shape& shape, const Pose& pose) {
     box.max[axis] = round_up(t + range.high + slack);
   }
   return box;
+}
+
+}  // namespace
+
+Aabb tight_box(const Shape& shape, const Pose& pose) {
+  return shape.kind == ShapeKind::halfspace ? halfspace_box(shape, pose) : bounded_box(shape, pose);
 }
 
 Aabb loose_box(double reach, const Vec3d& translation) {

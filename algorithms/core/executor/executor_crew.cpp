@@ -8,8 +8,6 @@
 namespace touchstone {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Threads stay awake for this long after a loop: the next one of the same frame is near.
 constexpr auto awake_for = std::chrono::microseconds(100);
 
@@ -56,6 +54,21 @@ void ExecutorCrew::cut(std::size_t tasks) {
   }
 }
 
+// Says whether to wake the crew for a loop that would take a thread this long. Loops that follow each
+// other are likely to go on, and find awake who is woken for one of them: so threads are woken when
+// they have missed as much as one long loop.
+bool ExecutorCrew::pays_to_wake(Clock::time_point start, double seconds) {
+  if (asleep_.load() == 0) {
+    seconds_asleep_ = 0;
+    return false;
+  }
+  if (start - last_end_ > awake_for) seconds_asleep_ = 0;
+  seconds_asleep_ += seconds;
+  if (seconds_asleep_ < least_waking_seconds) return false;
+  seconds_asleep_ = 0;
+  return true;
+}
+
 void ExecutorCrew::wake() {
   { const std::lock_guard lock(mutex_); }  // a thread that is about to sleep has seen the loop
   changed_.notify_all();
@@ -93,7 +106,7 @@ ExecutorCrew::Share ExecutorCrew::share(std::size_t tasks, const Body& body, dou
     own.tasks += run_next(0) ? 1 : 0;
     seconds = passed() * static_cast<double>(tasks);
   }
-  if (seconds >= least_waking_seconds && asleep_.load() > 0) wake();
+  if (pays_to_wake(start, seconds)) wake();
   while (run_next(0)) ++own.tasks;
   own.seconds = passed();
   state_.fetch_and(~is_open);
@@ -101,6 +114,7 @@ ExecutorCrew::Share ExecutorCrew::share(std::size_t tasks, const Body& body, dou
     // Where threads share a processor, those inside need it.
     waited < 2'000 ? pause() : std::this_thread::yield();
   }
+  last_end_ = Clock::now();
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
   return own;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +28,7 @@ class ExecutorCrew {
   using Body = std::function<void(std::size_t task, int worker)>;
 
   // Measured: two threads that are awake take less time than one for loops of at least this, and
-  // waking one pays for loops that take a thread this long.
+  // waking one pays for a loop that takes a thread this long, or for several that follow each other.
   static constexpr double least_shared_seconds = 3e-6;
   static constexpr double least_waking_seconds = 30e-6;
 
@@ -58,7 +59,10 @@ class ExecutorCrew {
   static constexpr std::uint64_t all_inside = 0xffff'fffc;
   static constexpr int loop_bits = 32;
 
+  using Clock = std::chrono::steady_clock;
+
   void start_threads();
+  bool pays_to_wake(Clock::time_point start, double seconds);
   void wake();
   void work_as(int worker);
   bool enter(std::uint64_t& loop);
@@ -80,6 +84,10 @@ class ExecutorCrew {
   // The loop; it changes only while nobody is inside.
   const Body* body_ = nullptr;
   std::exception_ptr failure_;  // guarded by mutex_
+
+  // The end of the last loop, and what a thread takes for loops since the crew fell asleep.
+  Clock::time_point last_end_;
+  double seconds_asleep_ = 0;
 
   alignas(64) std::atomic<std::uint64_t> state_ = 0;
   std::vector<Range> ranges_;  // one for each thread, the caller's first

@@ -1,6 +1,6 @@
 // Scans and sweeps: tests of boxes against runs of boxes, many at a time, at the level of vector
 // instructions that isa() allows. They only compare, so every level gives the same pairs. Used by
-// naive, the sweeps, uniform-grid and verlet-list.
+// naive, the sweeps, uniform-grid, verlet-list and moving_pairs.
 #pragma once
 
 #include <cstdint>

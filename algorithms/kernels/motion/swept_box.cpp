@@ -2,7 +2,10 @@
 #include "algorithms/kernels/motion/swept_box.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "algorithms/core/bounds.h"
@@ -20,13 +23,15 @@ constexpr double attitude_step = 0.5;
 constexpr double whole_turn = 6.5;
 
 // The greatest float <= x + y and the least float >= x + y. The error of the sum is exact (Knuth's
-// two-sum), and says on which side of the exact sum the rounded one is.
+// two-sum), and says on which side of the exact sum the rounded one is: if it is above, the next
+// double below counts, whose bits are the next pattern. A sum that is off is not 0.
 float sum_down(double x, double y) {
   const double sum = x + y;
-  if (std::isinf(sum)) return static_cast<float>(sum);
   const double part = sum - x;
-  const double error = (x - (sum - part)) + (y - part);
-  return round_down(error < 0 ? std::nextafter(sum, -INFINITY) : sum);
+  const double error = (x - (sum - part)) + (y - part);  // NaN if the sum is infinite
+  const auto bits = std::bit_cast<std::uint64_t>(sum);
+  const std::uint64_t is_above = error < 0 ? 1 : 0;
+  return round_down(std::bit_cast<double>(bits + is_above * (2 * (bits >> 63) - 1)));
 }
 float sum_up(double x, double y) { return -sum_down(-x, -y); }
 
@@ -73,10 +78,12 @@ Aabb everything() {
 }  // namespace
 
 MovingBox moving_box_of(const Shape& shape, const Pose& pose, const Motion& motion) {
+  const bool turns = motion.turns();
+  // Most bodies of a scene of obstacles are at rest.
+  if (!turns && motion.displacement.isZero(0)) return {tight_box(shape, pose), {0, 0, 0}, 0};
+  if (turns && shape.kind == ShapeKind::halfspace) return {everything(), {0, 0, 0}, 0};
   MovingBox body;
-  if (shape.kind == ShapeKind::halfspace && motion.turns()) return {everything(), {0, 0, 0}, 0};
-  body.box =
-      motion.turns() ? turning_box(shape, pose, motion.rotation_vector) : tight_box(shape, pose);
+  body.box = turns ? turning_box(shape, pose, motion.rotation_vector) : tight_box(shape, pose);
   for (std::size_t k = 0; k < 3; ++k) {
     const double displacement = motion.displacement[static_cast<Eigen::Index>(k)];
     const double within =
@@ -92,23 +99,22 @@ MovingBox moving_box_of(const Shape& shape, const Pose& pose, const Motion& moti
 }
 
 Aabb swept_box_of(const MovingBox& body, double begin, double end) {
+  // Each box is written where it is to be: a copy of numbers just written would wait for them.
   if (body.box.is_empty()) return body.box;
-  Aabb box;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (body.displacement[k] == 0) {
-      box.min[k] = std::clamp(body.box.min[k], -greatest, greatest);
-      box.max[k] = std::clamp(body.box.max[k], -greatest, greatest);
-      continue;
-    }
-    // Products are exact: 24 bits times 21.
-    const double first = begin * static_cast<double>(body.displacement[k]);
-    const double last = end * static_cast<double>(body.displacement[k]);
-    const float low = sum_down(body.box.min[k], std::min(first, last));
-    const float high = sum_up(body.box.max[k], std::max(first, last));
-    box.min[k] = std::clamp(low, -greatest, greatest);
-    box.max[k] = std::clamp(high, -greatest, greatest);
-  }
-  return box;
+  const auto cut = [](float end_of_box) { return std::clamp(end_of_box, -greatest, greatest); };
+  const std::array<float, 3>&min = body.box.min, &max = body.box.max;
+  if (body.displacement == std::array{0.0F, 0.0F, 0.0F})
+    return {{cut(min[0]), cut(min[1]), cut(min[2])}, {cut(max[0]), cut(max[1]), cut(max[2])}};
+  // Products are exact: 24 bits times 21.
+  const auto low = [&](std::size_t k) {
+    const double move = body.displacement[k];
+    return cut(sum_down(min[k], std::min(begin * move, end * move)));
+  };
+  const auto high = [&](std::size_t k) {
+    const double move = body.displacement[k];
+    return cut(sum_up(max[k], std::max(begin * move, end * move)));
+  };
+  return {{low(0), low(1), low(2)}, {high(0), high(1), high(2)}};
 }
 
 }  // namespace touchstone

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <new>
+#include <ranges>
 #include <span>
 #include <utility>
 
@@ -13,7 +15,7 @@ namespace touchstone::measure {
 namespace {
 
 // Pairs differ in what they cost, so that each worker gets several blocks, but none of a few pairs alone.
-constexpr std::size_t blocks_a_worker = 16, fewest_pairs = 16, most_pairs = 64;
+constexpr std::size_t blocks_a_worker = 16, fewest_pairs = 8, most_pairs = 64;
 
 IndexPair in_order(std::uint32_t i, std::uint32_t j) {
   return i < j ? IndexPair{i, j} : IndexPair{j, i};
@@ -29,6 +31,7 @@ ContinuousSteps::ContinuousSteps(const MotionInput& input, ContinuousChoice choi
       broad_(choice_.broad->make(executor)),
       moving_(*broad_, executor, choice_.parts),
       boxes_(input.bodies()),
+      swept_(input.bodies()),
       steps_(input.steps.size()) {
   for (const CastEntry* entry : choice_.casts) {
     std::vector<std::unique_ptr<Cast>>& instances = casts_.emplace_back();
@@ -43,25 +46,29 @@ void ContinuousSteps::place_boxes(const scene::MotionStep& step) {
   for_each_block(*executor_, boxes_.size(), bodies_a_block,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t i = first; i < last; ++i) {
-                     boxes_[i] = moving_box(input_->shapes[input_->shape_of[i]], step.poses[i],
-                                            step.motions[i]);
+                     // In place: a copy of numbers just written would wait for them.
+                     new (&boxes_[i]) MovingBox(moving_box(input_->shapes[input_->shape_of[i]],
+                                                           step.poses[i], step.motions[i]));
+                     new (&swept_[i]) Aabb(swept_box(boxes_[i]));
                    }
                  });
-  cut_halfspaces(*input_, boxes_);
+  cut_halfspaces(*input_, boxes_, swept_);
 }
 
-void ContinuousSteps::group(const scene::MotionStep& motions, Step& step) const {
-  step.batches.clear();
+void ContinuousSteps::group(const scene::MotionStep& motions, Step& step) {
   step.not_taken.clear();
   // Casts of straight motion take the pairs of a turning scene that do not turn.
-  std::array<std::vector<IndexPair>, 2> by_turning;
+  for (grade::PairGrouping& grouping : groups_) grouping.clear();
   for (const IndexPair& pair : pairs_) {
     const bool turns = motions.motions[pair.a].turns() || motions.motions[pair.b].turns();
-    by_turning[turns ? 1 : 0].push_back(pair);
+    groups_[turns ? 0 : 1].add(pair.a, input_->kind_of(pair.a), pair.b, input_->kind_of(pair.b));
   }
-  for (const bool turns : {false, true}) {
-    for (grade::PairGroup& group :
-         grade::group_by_kind(by_turning[turns ? 1 : 0], input_->shapes, input_->shape_of)) {
+  std::size_t batches = 0;
+  // Pairs that turn take longest, and of them the later kinds, so these go first: the cheap ones,
+  // which are left for the end, even the workers out.
+  for (const bool turns : {true, false}) {
+    for (const grade::PairGroup& group : groups_[turns ? 0 : 1].groups() | std::views::reverse) {
+      if (group.size() == 0) continue;
       const auto taker = std::ranges::find_if(choice_.casts, [&](const CastEntry* entry) {
         return offers(*entry, group.kind_a, group.kind_b, turns);
       });
@@ -70,12 +77,14 @@ void ContinuousSteps::group(const scene::MotionStep& motions, Step& step) const 
           step.not_taken.push_back(in_order(group.first[i], group.second[i]));
         continue;
       }
-      Batch& batch = step.batches.emplace_back();
+      if (batches == step.batches.size()) step.batches.emplace_back();
+      Batch& batch = step.batches[batches++];
       batch.cast = static_cast<std::size_t>(taker - choice_.casts.begin());
       batch.outcomes.resize(group.size());
-      batch.pairs = std::move(group);
+      batch.pairs = group;
     }
   }
+  step.batches.resize(batches);
 }
 
 void ContinuousSteps::cast(const scene::MotionStep& motions, Step& step) {
@@ -87,8 +96,12 @@ void ContinuousSteps::cast(const scene::MotionStep& motions, Step& step) {
   const auto blocks = blocks_a_worker * static_cast<std::size_t>(executor_->width());
   const std::size_t pairs_a_block = std::clamp(pairs_.size() / blocks, fewest_pairs, most_pairs);
   for (Batch& batch : step.batches) {
-    for (std::size_t i = 0; i < batch.pairs.size(); i += pairs_a_block)
-      pieces.push_back({&batch, i, std::min(pairs_a_block, batch.pairs.size() - i)});
+    // Even pieces: a few pairs left over would be worth no task.
+    const std::size_t size = batch.pairs.size(), count = block_count(size, pairs_a_block);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t first = i * size / count;
+      pieces.push_back({&batch, first, (i + 1) * size / count - first});
+    }
   }
   const auto work = [&](std::size_t task, int worker) {
     const Piece& piece = pieces[task];

@@ -2,6 +2,7 @@
 // of moving boxes, and casts of what is left.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,7 +33,8 @@ class ContinuousSteps {
   std::vector<StepAnswer> answers() const;
 
  private:
-  // Pairs of one kind pair that one cast takes, and their outcomes.
+  // Pairs of one kind pair that one cast takes, and their outcomes. Plays write over those of the
+  // play before, in the same memory.
   struct Batch {
     std::size_t cast = 0;
     grade::PairGroup pairs;
@@ -44,7 +46,7 @@ class ContinuousSteps {
   };
 
   void place_boxes(const scene::MotionStep& step);
-  void group(const scene::MotionStep& motions, Step& step) const;
+  void group(const scene::MotionStep& motions, Step& step);
   void cast(const scene::MotionStep& motions, Step& step);
 
   const MotionInput* input_;
@@ -54,7 +56,9 @@ class ContinuousSteps {
   MovingPairs moving_;
   std::vector<std::vector<std::unique_ptr<Cast>>> casts_;  // by cast and worker
   std::vector<MovingBox> boxes_;
+  std::vector<Aabb> swept_;  // by the boxes
   std::vector<IndexPair> pairs_;
+  std::array<grade::PairGrouping, 2> groups_;  // of pairs that turn, and of those that do not
   std::vector<Step> steps_;
 };
 

@@ -72,15 +72,15 @@ void DiscreteSteps::place(const scene::MotionStep& step, double time) {
                      boxes[i] = tight_box(input_->shapes[input_->shape_of[i]], poses_[i]);
                    }
                  });
-  std::vector<MovingBox> halfspaces;
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    if (input_->kind_of(i) != ShapeKind::halfspace) continue;
-    if (halfspaces.empty()) {
-      for (const Aabb& box : boxes) halfspaces.push_back({box, {0, 0, 0}, 0});
-      cut_halfspaces(*input_, halfspaces);
-    }
-    boxes[i] = halfspaces[i].box;
+  if (!input_->has_halfspaces()) return;
+  std::vector<MovingBox> still;
+  std::vector<Aabb> swept;
+  for (const Aabb& box : boxes) {
+    still.push_back({box, {0, 0, 0}, 0});
+    swept.push_back(swept_box(still.back()));
   }
+  cut_halfspaces(*input_, still, swept);
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = still[i].box;
 }
 
 void DiscreteSteps::search(bool is_first) {

@@ -14,6 +14,11 @@ bool MotionInput::turns() const {
   });
 }
 
+bool MotionInput::has_halfspaces() const {
+  return std::ranges::any_of(shapes,
+                             [](const Shape& shape) { return shape.kind == ShapeKind::halfspace; });
+}
+
 MotionInput motion_input(const scene::Scene& scene, const std::filesystem::path& file,
                          bool is_linear) {
   MotionInput input;
@@ -27,7 +32,8 @@ MotionInput motion_input(const scene::Scene& scene, const std::filesystem::path&
   return input;
 }
 
-void cut_halfspaces(const MotionInput& input, std::span<MovingBox> boxes) {
+void cut_halfspaces(const MotionInput& input, std::span<MovingBox> boxes, std::span<Aabb> swept) {
+  if (!input.has_halfspaces()) return;
   const auto is_halfspace = [&](std::size_t body) {
     return input.kind_of(static_cast<std::uint32_t>(body)) == ShapeKind::halfspace;
   };
@@ -38,10 +44,9 @@ void cut_halfspaces(const MotionInput& input, std::span<MovingBox> boxes) {
       any = true;
       continue;
     }
-    const Aabb swept = swept_box(boxes[i]);
     for (std::size_t k = 0; k < 3; ++k) {
-      world.min[k] = std::min(world.min[k], swept.min[k]);
-      world.max[k] = std::max(world.max[k], swept.max[k]);
+      world.min[k] = std::min(world.min[k], swept[i].min[k]);
+      world.max[k] = std::max(world.max[k], swept[i].max[k]);
     }
   }
   if (!any) return;
@@ -56,6 +61,7 @@ void cut_halfspaces(const MotionInput& input, std::span<MovingBox> boxes) {
       if (std::isinf(box.box.max[k])) box.box.max[k] = round_up(world.max[k] + 2 * way);
       if (box.box.min[k] > box.box.max[k]) box.box.min[k] = box.box.max[k];
     }
+    swept[i] = swept_box(box);
   }
 }
 

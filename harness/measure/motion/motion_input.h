@@ -15,7 +15,7 @@
 namespace touchstone::measure {
 
 // What a worker does at a time where it turns bodies or makes their boxes.
-inline constexpr std::size_t bodies_a_block = 256;
+inline constexpr std::size_t bodies_a_block = 32;
 
 struct MotionInput {
   std::vector<Shape> shapes;
@@ -25,6 +25,7 @@ struct MotionInput {
   std::size_t bodies() const { return shape_of.size(); }
   ShapeKind kind_of(std::uint32_t body) const { return shapes[shape_of[body]].kind; }
   bool turns() const;  // true if some body does in some step
+  bool has_halfspaces() const;
 };
 
 // `is_linear` leaves the rotations out. Throws InputError as motion_steps does.
@@ -32,8 +33,9 @@ MotionInput motion_input(const scene::Scene& scene, const std::filesystem::path&
                          bool is_linear);
 
 // Cuts the infinite ends of half-spaces to the region that all other boxes sweep, so that no pair of
-// moving boxes is lost or gained and broad phases get a world of its true size.
-void cut_halfspaces(const MotionInput& input, std::span<MovingBox> boxes);
+// moving boxes is lost or gained and broad phases get a world of its true size. swept[i] is
+// swept_box(boxes[i]), before and after.
+void cut_halfspaces(const MotionInput& input, std::span<MovingBox> boxes, std::span<Aabb> swept);
 
 // The answer to a step. The pairs are sorted, a < b.
 struct StepAnswer {

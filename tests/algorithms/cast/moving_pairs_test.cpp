@@ -85,6 +85,25 @@ TEST(MovingPairs, HaveAnOrderThatDoesNotDependOnTheThreads) {
   EXPECT_EQ(alone, two);
 }
 
+TEST(MovingPairs, AreTheSameWhereTheSweptBoxesAreKnown) {
+  Executor executor(2);
+  const std::unique_ptr<BroadPhase> broad = find_broad_phase("linear-bvh")->make(executor);
+  MovingPairs moving(*broad, executor);
+  for (const double motion : {0.5, 20.0}) {
+    const auto bodies = cubes(900, motion, 5);
+    std::vector<Aabb> swept;
+    for (const MovingBox& body : bodies) swept.push_back(swept_box(body));
+    std::vector<IndexPair> pairs, others;
+    ASSERT_EQ(moving.find_pairs(bodies, pairs), Status::ok);
+    const int parts = moving.parts();
+    EXPECT_EQ(parts > 1, motion > 1);
+    ASSERT_EQ(moving.find_pairs(bodies, swept, others), Status::ok);
+    EXPECT_EQ(moving.parts(), parts);
+    EXPECT_EQ(pairs, others);
+    EXPECT_FALSE(pairs.empty());
+  }
+}
+
 TEST(MovingPairs, AreCutWhereBoxesSweepMuch) {
   Executor executor(1);
   const std::unique_ptr<BroadPhase> broad = find_broad_phase("linear-bvh")->make(executor);

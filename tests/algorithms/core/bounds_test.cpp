@@ -181,6 +181,36 @@ TEST(Rounding, IsOutwardAndExactWhereItCanBe) {
   EXPECT_EQ(round_up(1e-300), std::numeric_limits<float>::denorm_min());
 }
 
+// Numbers of every size down to those that floats do not have, floats among them.
+TEST(Rounding, IsThatOfTheNextFloat) {
+  std::mt19937_64 random(7);
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  int lowered = 0, kept = 0;
+  const auto expect = [&](double x) {
+    const auto f = static_cast<float>(x);
+    const bool is_above = static_cast<double>(f) > x;
+    const float down = is_above ? std::nextafter(f, -infinite) : f;
+    EXPECT_EQ(round_down(x), down) << x;
+    EXPECT_EQ(round_up(-x), -down) << x;
+    EXPECT_EQ(std::signbit(round_down(x)), std::signbit(down)) << x;
+    ++(is_above ? lowered : kept);
+  };
+  for (int round = 0; round < 20'000; ++round) {
+    const double x = std::ldexp(uniform(random, -1, 1), static_cast<int>(random() % 330) - 190);
+    expect(x);
+    expect(static_cast<double>(static_cast<float>(x)));
+  }
+  for (const double x :
+       {0.0, 1e-60, 0x1p-150, 0x1p-149, 0x1.8p-149, 0x1p-126, 0x1.fffffefp-127, 0x1.fffffep127,
+        0x1.fffffefp127, 0x1p128, 1e300, std::numeric_limits<double>::denorm_min(),
+        std::numeric_limits<double>::infinity()}) {
+    expect(x);
+    expect(-x);
+  }
+  EXPECT_GT(lowered, 5'000);
+  EXPECT_GT(kept, 20'000);
+}
+
 TEST(Overlap, IsClosedAndTheEmptyBoxOverlapsNothing) {
   const Aabb a{{0, 0, 0}, {1, 1, 1}};
   EXPECT_TRUE(overlap(a, {{1, 1, 1}, {2, 2, 2}}));

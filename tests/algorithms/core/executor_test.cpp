@@ -178,6 +178,25 @@ TEST(Executor, LoopsSeeWhatTheOnesBeforeWrote) {
   }
 }
 
+// Each loop is too short to wake a thread that sleeps.
+TEST(Executor, ShortLoopsThatFollowEachOtherWakeTheCrew) {
+  using Clock = std::chrono::steady_clock;
+  Executor executor(2);
+  std::atomic<int> taken_by_other = 0;
+  const auto body = [&](std::size_t, int worker) {
+    const auto end = Clock::now() + std::chrono::microseconds(3);
+    while (Clock::now() < end) {
+    }
+    if (worker != 0) ++taken_by_other;
+  };
+  executor.run(4, body);  // the executor learns what a task takes
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  taken_by_other = 0;
+  const auto end = Clock::now() + std::chrono::seconds(60);  // a busy machine may let it wait
+  while (taken_by_other == 0 && Clock::now() < end) executor.run(4, body);
+  EXPECT_GT(taken_by_other, 0);
+}
+
 TEST(Executor, ALoopInATaskIsItsWorkersOwn) {
   for (const int width : {1, 2, 4}) {
     Executor executor(width);
