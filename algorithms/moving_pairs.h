@@ -47,7 +47,8 @@ class MovingPairs {
   // phase does; the pairs are all only with Status::ok.
   Status find_pairs(std::span<const MovingBox> bodies, std::vector<IndexPair>& pairs);
   // The same where swept[i] == swept_box(bodies[i]) is known, as it is at little cost to a loop that
-  // makes the moving boxes.
+  // makes the moving boxes. There is one for each body, and the broad phase may refer to them until the
+  // next call.
   Status find_pairs(std::span<const MovingBox> bodies, std::span<const Aabb> swept,
                     std::vector<IndexPair>& pairs);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "harness/stats/statistics.h"
 
@@ -17,7 +18,8 @@ constexpr double longest_sample = 3e-3;
 constexpr double shortest_sample = 0.25e-3;
 constexpr double greatest_window = 4096;  // frames
 // An algorithm that is updated may do at once what serves the frames after. Its window is then all
-// frames, or several times all, where the median candidate takes no more than this (seconds).
+// frames, or several times all, where the median candidate takes no more than this (seconds) and
+// either the number of squares is fixed or a set's share of the time is enough for the first look.
 constexpr double longest_pass = 0.2;
 
 std::size_t index_of(std::vector<Candidate>& candidates, const Candidate& wanted) {
@@ -143,11 +145,17 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
     }
     const double share = group.seconds / static_cast<double>(schedule.sets.size());
     const double seconds = std::clamp(share / samples, shortest_sample, longest_sample);
+    const double average =
+        std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(means.size());
     const double mean = std::max(stats::median(std::move(means)), 1e-9);
     double window = std::clamp(std::ceil(seconds / mean), 1.0, greatest_window);
     const auto pass = static_cast<double>(frames - set.starts.front());
     const bool updates = schedule.pairs[s] == nullptr && set.starts.front() > 0;
-    if (updates && mean * pass <= longest_pass) window = std::ceil(window / pass) * pass;
+    const bool is_long = mean * pass > longest_pass || pass > greatest_window;
+    if (updates && !is_long && (group.squares || samples * average * pass <= share)) {
+      const double passes = std::min(std::ceil(window / pass), std::floor(greatest_window / pass));
+      window = passes * pass;
+    }
     set.window = static_cast<std::uint32_t>(window);
   }
   return schedule;

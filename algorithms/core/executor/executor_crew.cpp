@@ -55,14 +55,14 @@ void ExecutorCrew::cut(std::size_t tasks) {
 }
 
 // Says whether to wake the crew for a loop that would take a thread this long. Loops that follow each
-// other are likely to go on, and find awake who is woken for one of them: so threads are woken when
-// they have missed as much as one long loop.
+// other are likely to go on, and find awake who is woken for one of them, if threads wait awake: so
+// they are woken when they have missed as much as one long loop.
 bool ExecutorCrew::pays_to_wake(Clock::time_point start, double seconds) {
   if (asleep_.load() == 0) {
     seconds_asleep_ = 0;
     return false;
   }
-  if (start - last_end_ > awake_for) seconds_asleep_ = 0;
+  if (!may_spin_ || start - last_end_ > awake_for) seconds_asleep_ = 0;
   seconds_asleep_ += seconds;
   if (seconds_asleep_ < least_waking_seconds) return false;
   seconds_asleep_ = 0;

@@ -85,7 +85,8 @@ class ExecutorCrew {
   const Body* body_ = nullptr;
   std::exception_ptr failure_;  // guarded by mutex_
 
-  // The end of the last loop, and what a thread takes for loops since the crew fell asleep.
+  // The end of the last loop, and what a thread takes for the loops that followed each other since a
+  // thread of the crew fell asleep or was last woken.
   Clock::time_point last_end_;
   double seconds_asleep_ = 0;
 

@@ -64,8 +64,8 @@ void ContinuousSteps::group(const scene::MotionStep& motions, Step& step) {
     groups_[turns ? 0 : 1].add(pair.a, input_->kind_of(pair.a), pair.b, input_->kind_of(pair.b));
   }
   std::size_t batches = 0;
-  // Pairs that turn take longest, and of them the later kinds, so these go first: the cheap ones,
-  // which are left for the end, even the workers out.
+  // Pairs that turn take longest, and pairs of two hulls longer than most, so these go first: the
+  // cheap ones, which are left for the end, even the workers out.
   for (const bool turns : {true, false}) {
     for (const grade::PairGroup& group : groups_[turns ? 0 : 1].groups() | std::views::reverse) {
       if (group.size() == 0) continue;
@@ -122,7 +122,7 @@ void ContinuousSteps::play() {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const scene::MotionStep& motions = input_->steps[i];
     place_boxes(motions);
-    if (moving_.find_pairs(boxes_, pairs_) != Status::ok) {
+    if (moving_.find_pairs(boxes_, swept_, pairs_) != Status::ok) {
       throw base::InputError("the broad phase '" + choice_.broad->info.name +
                              "' found not all pairs; expected one that does");
     }

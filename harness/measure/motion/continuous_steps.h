@@ -56,7 +56,7 @@ class ContinuousSteps {
   MovingPairs moving_;
   std::vector<std::vector<std::unique_ptr<Cast>>> casts_;  // by cast and worker
   std::vector<MovingBox> boxes_;
-  std::vector<Aabb> swept_;  // by the boxes
+  std::vector<Aabb> swept_;  // what boxes_ sweep in the step
   std::vector<IndexPair> pairs_;
   std::array<grade::PairGrouping, 2> groups_;  // of pairs that turn, and of those that do not
   std::vector<Step> steps_;

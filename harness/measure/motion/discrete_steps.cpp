@@ -75,6 +75,8 @@ void DiscreteSteps::place(const scene::MotionStep& step, double time) {
   if (!input_->has_halfspaces()) return;
   std::vector<MovingBox> still;
   std::vector<Aabb> swept;
+  still.reserve(boxes.size());
+  swept.reserve(boxes.size());
   for (const Aabb& box : boxes) {
     still.push_back({box, {0, 0, 0}, 0});
     swept.push_back(swept_box(still.back()));
