@@ -166,9 +166,9 @@ void MovingPairs::keep_new(std::span<const MovingBox> bodies, int part,
 }
 
 Status MovingPairs::find_pairs(std::span<const MovingBox> bodies, std::vector<IndexPair>& pairs) {
-  whole_.resize(bodies.size());
   // A fixed cut into several parts does not read them.
-  for_each_block(*executor_, asked_parts_ > 1 ? 0 : bodies.size(), bodies_a_block,
+  whole_.resize(asked_parts_ > 1 ? 0 : bodies.size());
+  for_each_block(*executor_, whole_.size(), bodies_a_block,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t i = first; i < last; ++i) whole_[i] = swept_box(bodies[i]);
                  });

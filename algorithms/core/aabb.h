@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace touchstone {
 
@@ -32,16 +33,21 @@ constexpr bool overlap(const Aabb& a, const Aabb& b) {
          a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
 }
 
-// The greatest float <= x, and the least float >= x; infinite if x is beyond the float's range. A
-// conversion is off to either side half of the time, which no branch predicts, so none is taken: the
-// next float is the next pattern of bits. A zero that is off has the sign of x, and steps to the
-// least number of that sign.
+// Returns the next number below x if x is to step, else x. A rounding is off to either side half of the
+// time, which no branch predicts, so none is taken: the next number is the next pattern of bits. x is
+// no NaN, and +0 does not step.
+template <class Float>
+Float step_down_if(bool steps, Float x) {
+  using Bits = std::conditional_t<sizeof(Float) == 4, std::uint32_t, std::uint64_t>;
+  const auto bits = std::bit_cast<Bits>(x);
+  const Bits is_negative = bits >> (8 * sizeof(Float) - 1);
+  return std::bit_cast<Float>(bits + (steps ? Bits{1} : Bits{0}) * (2 * is_negative - 1));
+}
+
+// The greatest float <= x, and the least float >= x; infinite if x is beyond the float's range.
 inline float round_down(double x) {
-  const float f = static_cast<float>(x);
-  const auto bits = std::bit_cast<std::uint32_t>(f);
-  const std::uint32_t is_above = static_cast<double>(f) > x ? 1 : 0;
-  const std::uint32_t away = 2 * (bits >> 31) - 1;  // -1 for a positive float, 1 for a negative one
-  return std::bit_cast<float>(bits + is_above * away);
+  const float f = static_cast<float>(x);  // a zero that is above x is -0
+  return step_down_if(static_cast<double>(f) > x, f);
 }
 inline float round_up(double x) { return -round_down(-x); }
 

@@ -23,7 +23,7 @@ class RebuildInterval {
   void ended(int age, std::size_t bodies, std::size_t pairs);
 
  private:
-  double growth_ = 1.5;  // of a box's side a frame, in units of the share
+  double growth_ = 1.5;  // growth of a box's side a frame, in units of the share
   double lasted_ = 1;  // mean ratio of the age at which a list ended and the frames it was made for
   double share_ = 0;   // share of the last list
   double frames_ = 0;  // frames that it was made for

@@ -18,8 +18,8 @@
 //          of the R-tree is kept until its blocks have grown by a quarter. Escaped boxes are searched
 //          one by one while they are few. If motion is too fast for a list, the packed R-tree
 //          searches each frame.
-// Fails:   motion of a body's size a frame, or more than some two pairs a body that move: it is then
-//          the packed R-tree. Bodies that slow down get their list some frames late.
+// Fails:   motion of a body's size a frame, or, with AVX2 or AVX-512, more than some two pairs a body
+//          that move: it is then the packed R-tree. Bodies that slow down get their list some frames late.
 // Cost:    O(n + c) a frame, c = pairs of grown boxes; O(n) expected to make the list. About 80
 //          bytes a body and 12 a candidate.
 #include <algorithm>
@@ -121,7 +121,7 @@ class VerletList final : public BroadPhase {
   int until_look_ = 1, wait_ = 1;  // frames until motion is measured, while there is no list
   bool asks_for_all_ = true;       // the last question was for all pairs, or almost all
 
-  EscapedBoxes escaped_;   // of the list
+  EscapedBoxes escaped_;   // those of the list
   std::size_t pairs_ = 0;  // number found by the last search for all
   BodyMarks asked_;        // scratch
 };

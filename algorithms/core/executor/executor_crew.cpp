@@ -8,8 +8,7 @@
 namespace touchstone {
 namespace {
 
-// Threads stay awake for this long after a loop: the next one of the same frame is near.
-constexpr auto awake_for = std::chrono::microseconds(100);
+using Clock = std::chrono::steady_clock;
 
 // Waits for some tens of cycles, in which the other thread of a processor's core can work.
 void pause() {
@@ -23,7 +22,7 @@ void pause() {
 }  // namespace
 
 ExecutorCrew::ExecutorCrew(int width, bool may_spin, std::function<void(int worker)> begin)
-    : width_(width), may_spin_(may_spin), begin_(std::move(begin)) {}
+    : width_(width), may_spin_(may_spin), begin_(std::move(begin)), wake_rule_(may_spin) {}
 
 ExecutorCrew::~ExecutorCrew() {
   {
@@ -52,21 +51,6 @@ void ExecutorCrew::cut(std::size_t tasks) {
     first += share + (i < larger ? 1 : 0);
     ranges_[i].end = first;
   }
-}
-
-// Says whether to wake the crew for a loop that would take a thread this long. Loops that follow each
-// other are likely to go on, and find awake who is woken for one of them, if threads wait awake: so
-// they are woken when they have missed as much as one long loop.
-bool ExecutorCrew::pays_to_wake(Clock::time_point start, double seconds) {
-  if (asleep_.load() == 0) {
-    seconds_asleep_ = 0;
-    return false;
-  }
-  if (!may_spin_ || start - last_end_ > awake_for) seconds_asleep_ = 0;
-  seconds_asleep_ += seconds;
-  if (seconds_asleep_ < least_waking_seconds) return false;
-  seconds_asleep_ = 0;
-  return true;
 }
 
 void ExecutorCrew::wake() {
@@ -106,7 +90,7 @@ ExecutorCrew::Share ExecutorCrew::share(std::size_t tasks, const Body& body, dou
     own.tasks += run_next(0) ? 1 : 0;
     seconds = passed() * static_cast<double>(tasks);
   }
-  if (pays_to_wake(start, seconds)) wake();
+  if (wake_rule_.wakes(asleep_.load() > 0, start, seconds)) wake();
   while (run_next(0)) ++own.tasks;
   own.seconds = passed();
   state_.fetch_and(~is_open);
@@ -114,7 +98,7 @@ ExecutorCrew::Share ExecutorCrew::share(std::size_t tasks, const Body& body, dou
     // Where threads share a processor, those inside need it.
     waited < 2'000 ? pause() : std::this_thread::yield();
   }
-  last_end_ = Clock::now();
+  wake_rule_.end_loop(Clock::now());
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
   return own;
 }
@@ -138,7 +122,7 @@ void ExecutorCrew::work_as(int worker) {
 // Waits awake for an open loop after this one, enters it and sets the number. Returns false if none
 // comes for some time.
 bool ExecutorCrew::enter(std::uint64_t& loop) {
-  const auto end = Clock::now() + (may_spin_ ? awake_for : std::chrono::microseconds(0));
+  const auto end = Clock::now() + (may_spin_ ? WakeRule::awake_for : std::chrono::microseconds(0));
   for (;;) {
     for (int i = 0; i < 64; ++i) {
       std::uint64_t state = state_.load(std::memory_order_acquire);

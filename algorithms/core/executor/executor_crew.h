@@ -4,7 +4,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +12,8 @@
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#include "algorithms/core/executor/wake_rule.h"
 
 namespace touchstone {
 
@@ -27,10 +28,8 @@ class ExecutorCrew {
  public:
   using Body = std::function<void(std::size_t task, int worker)>;
 
-  // Measured: two threads that are awake take less time than one for loops of at least this, and
-  // waking one pays for a loop that takes a thread this long, or for several that follow each other.
+  // Measured: two threads that are awake take less time than one for loops of at least this.
   static constexpr double least_shared_seconds = 3e-6;
-  static constexpr double least_waking_seconds = 30e-6;
 
   // Threads call `begin` with their number, in [1, width), when they start. They wait awake if
   // there is a processor for each.
@@ -59,10 +58,7 @@ class ExecutorCrew {
   static constexpr std::uint64_t all_inside = 0xffff'fffc;
   static constexpr int loop_bits = 32;
 
-  using Clock = std::chrono::steady_clock;
-
   void start_threads();
-  bool pays_to_wake(Clock::time_point start, double seconds);
   void wake();
   void work_as(int worker);
   bool enter(std::uint64_t& loop);
@@ -85,10 +81,7 @@ class ExecutorCrew {
   const Body* body_ = nullptr;
   std::exception_ptr failure_;  // guarded by mutex_
 
-  // The end of the last loop, and what a thread takes for the loops that followed each other since a
-  // thread of the crew fell asleep or was last woken.
-  Clock::time_point last_end_;
-  double seconds_asleep_ = 0;
+  WakeRule wake_rule_;
 
   alignas(64) std::atomic<std::uint64_t> state_ = 0;
   std::vector<Range> ranges_;  // one for each thread, the caller's first

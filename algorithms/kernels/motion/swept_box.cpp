@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "algorithms/core/bounds.h"
@@ -23,15 +21,12 @@ constexpr double attitude_step = 0.5;
 constexpr double whole_turn = 6.5;
 
 // The greatest float <= x + y and the least float >= x + y. The error of the sum is exact (Knuth's
-// two-sum), and says on which side of the exact sum the rounded one is: if it is above, the next
-// double below counts, whose bits are the next pattern. A sum that is off is not 0.
+// two-sum), and says on which side of the exact sum the rounded one is. A sum that is off is not 0.
 float sum_down(double x, double y) {
   const double sum = x + y;
   const double part = sum - x;
   const double error = (x - (sum - part)) + (y - part);  // NaN if the sum is infinite
-  const auto bits = std::bit_cast<std::uint64_t>(sum);
-  const std::uint64_t is_above = error < 0 ? 1 : 0;
-  return round_down(std::bit_cast<double>(bits + is_above * (2 * (bits >> 63) - 1)));
+  return round_down(step_down_if(error < 0, sum));
 }
 float sum_up(double x, double y) { return -sum_down(-x, -y); }
 

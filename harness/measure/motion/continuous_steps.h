@@ -58,7 +58,7 @@ class ContinuousSteps {
   std::vector<MovingBox> boxes_;
   std::vector<Aabb> swept_;  // what boxes_ sweep in the step
   std::vector<IndexPair> pairs_;
-  std::array<grade::PairGrouping, 2> groups_;  // of pairs that turn, and of those that do not
+  std::array<grade::PairGrouping, 2> groups_;  // pairs that turn, and those that do not
   std::vector<Step> steps_;
 };
 

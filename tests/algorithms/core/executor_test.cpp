@@ -14,9 +14,12 @@
 #include <thread>
 #include <vector>
 
+#include "algorithms/core/executor/wake_rule.h"
+
 namespace {
 
 using touchstone::Executor;
+using touchstone::WakeRule;
 
 TEST(Executor, RunsEachTaskOnceAtEveryWidth) {
   for (const int width : {1, 2, 3, 5}) {
@@ -178,23 +181,32 @@ TEST(Executor, LoopsSeeWhatTheOnesBeforeWrote) {
   }
 }
 
-// Each loop is too short to wake a thread that sleeps.
-TEST(Executor, ShortLoopsThatFollowEachOtherWakeTheCrew) {
-  using Clock = std::chrono::steady_clock;
-  Executor executor(2);
-  std::atomic<int> taken_by_other = 0;
-  const auto body = [&](std::size_t, int worker) {
-    const auto end = Clock::now() + std::chrono::microseconds(3);
-    while (Clock::now() < end) {
-    }
-    if (worker != 0) ++taken_by_other;
+// Loops of 12 us, of which each alone is too short.
+TEST(WakeRule, CountsShortLoopsThatFollowEachOther) {
+  using std::chrono::microseconds;
+  constexpr double seconds = 12e-6;
+  const auto wakes = [](WakeRule& rule, WakeRule::Time begin, bool sleeps = true) {
+    const bool result = rule.wakes(sleeps, begin, seconds);
+    rule.end_loop(begin + microseconds(12));
+    return result;
   };
-  executor.run(4, body);  // the executor learns what a task takes
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  taken_by_other = 0;
-  const auto end = Clock::now() + std::chrono::seconds(60);  // a busy machine may let it wait
-  while (taken_by_other == 0 && Clock::now() < end) executor.run(4, body);
-  EXPECT_GT(taken_by_other, 0);
+  const WakeRule::Time now{std::chrono::hours(1)};
+  WakeRule rule(true);
+  EXPECT_FALSE(wakes(rule, now));
+  EXPECT_FALSE(wakes(rule, now + microseconds(50)));
+  EXPECT_TRUE(wakes(rule, now + microseconds(100)));
+  EXPECT_FALSE(wakes(rule, now + microseconds(150))) << "it begins anew";
+  EXPECT_FALSE(wakes(rule, now + microseconds(200)));
+  EXPECT_FALSE(wakes(rule, now + microseconds(400))) << "loops paused";
+  EXPECT_FALSE(wakes(rule, now + microseconds(450)));
+  EXPECT_FALSE(wakes(rule, now + microseconds(500), false)) << "all were awake";
+  EXPECT_FALSE(wakes(rule, now + microseconds(550)));
+  EXPECT_FALSE(wakes(rule, now + microseconds(600)));
+  EXPECT_TRUE(wakes(rule, now + microseconds(650)));
+  EXPECT_TRUE(rule.wakes(true, now + microseconds(700), WakeRule::least_seconds));
+  WakeRule alone(false);
+  for (int loop = 0; loop < 10; ++loop) EXPECT_FALSE(wakes(alone, now + microseconds(20 * loop)));
+  EXPECT_TRUE(alone.wakes(true, now + microseconds(300), WakeRule::least_seconds));
 }
 
 TEST(Executor, ALoopInATaskIsItsWorkersOwn) {
