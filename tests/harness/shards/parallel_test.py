@@ -3,6 +3,7 @@
 itself are killed: the merged results are those of runs that nobody disturbed."""
 
 import argparse
+import contextlib
 import csv
 import os
 import pathlib
@@ -47,7 +48,10 @@ class Script:
     def kill_parallel(self):
         """Kills parallel alone: neither the script nor the shards."""
         for process in self._members():
-            words = pathlib.Path("/proc", str(process), "cmdline").read_text(errors="replace").split("\0")
+            try:
+                words = pathlib.Path("/proc", str(process), "cmdline").read_text(errors="replace").split("\0")
+            except OSError:
+                continue  # it has ended meanwhile
             if any(re.fullmatch(r".*/parallel", word) for word in words[:2]):
                 os.kill(process, signal.SIGKILL)
 
@@ -58,7 +62,8 @@ class Script:
 
     def stop(self):
         for process in self._members():
-            os.kill(process, signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):  # it may have ended meanwhile
+                os.kill(process, signal.SIGKILL)
         if not self.process.stdout.closed:
             print(self.process.communicate()[0], end="")
 
