@@ -51,11 +51,13 @@ struct MovingPairs::Sample {
   PairSink overlaps;  // of the sampled bodies, each with all others of the sample
 };
 
-MovingPairs::MovingPairs(BroadPhase& broad_phase, Executor& executor, int parts)
+MovingPairs::MovingPairs(const BroadPhaseEntry& broad_phase, Executor& executor, int parts)
     : broad_phase_(&broad_phase),
       executor_(&executor),
       asked_parts_(parts),
-      sample_(std::make_unique<Sample>()) {}
+      sample_(std::make_unique<Sample>()) {
+  searches_.emplace_back().broad_phase = broad_phase.make(executor);
+}
 
 MovingPairs::~MovingPairs() = default;
 
@@ -137,32 +139,40 @@ std::span<const Aabb> MovingPairs::sweep(std::span<const MovingBox> bodies, int 
   return boxes;
 }
 
-void MovingPairs::keep_new(std::span<const MovingBox> bodies, int part,
-                           std::vector<IndexPair>& pairs) {
-  std::vector<std::span<const IndexPair>> pieces;
-  for (const PairBuffer& chunk : found_.chunks()) {
+// A library's broad phase may share what it has with others in its thread.
+int MovingPairs::parts_at_once() const {
+  const bool is_library = broad_phase_->info.origin == Origin::peer;
+  return is_library || parts_ < executor_->width() ? 1 : executor_->width();
+}
+
+void MovingPairs::search(std::span<const MovingBox> bodies, std::span<const Aabb> swept, int part,
+                         Search& search) {
+  search.broad_phase->build(parts_ == 1 ? swept : sweep(bodies, part));
+  search.status = search.broad_phase->find_pairs(search.found);
+  if (search.status != Status::ok) return;
+  search.pieces.clear();
+  for (const PairBuffer& chunk : search.found.chunks()) {
     for (std::size_t i = 0; i < chunk.size(); i += pairs_a_block)
-      pieces.push_back(chunk.pairs().subspan(i, std::min(pairs_a_block, chunk.size() - i)));
+      search.pieces.push_back(chunk.pairs().subspan(i, std::min(pairs_a_block, chunk.size() - i)));
   }
-  const auto seen = [&](const IndexPair& pair) {
-    for (auto k = static_cast<std::size_t>(part); k-- > 0;) {
-      if (overlap(swept_[k][pair.a], swept_[k][pair.b])) return true;
-    }
-    return false;
-  };
-  kept_.start(pieces.size());
+  search.meeting.start(search.pieces.size());
   const auto work = [&](std::size_t task, int) {
-    std::span<const IndexPair> fresh = pieces[task];
-    std::vector<IndexPair> unseen;
-    if (part > 0) {
-      std::ranges::remove_copy_if(fresh, std::back_inserter(unseen), seen);
-      fresh = unseen;
-    }
-    keep_meeting(bodies, fresh, kept_.chunk(task));
+    keep_meeting(bodies, search.pieces[task], search.meeting.chunk(task));
   };
-  executor_->run(pieces.size(), std::cref(work));
-  for (const PairBuffer& chunk : kept_.chunks())
-    pairs.insert(pairs.end(), chunk.pairs().begin(), chunk.pairs().end());
+  executor_->run(search.pieces.size(), std::cref(work));
+}
+
+// Appends the pairs that no earlier part has.
+void MovingPairs::append_new(int part, const PairSink& meeting,
+                             std::vector<IndexPair>& pairs) const {
+  const auto is_new = [&](const IndexPair& pair) {
+    for (auto k = static_cast<std::size_t>(part); k-- > 0;) {
+      if (overlap(swept_[k][pair.a], swept_[k][pair.b])) return false;
+    }
+    return true;
+  };
+  for (const PairBuffer& chunk : meeting.chunks())
+    std::ranges::copy_if(chunk.pairs(), std::back_inserter(pairs), is_new);
 }
 
 Status MovingPairs::find_pairs(std::span<const MovingBox> bodies, std::vector<IndexPair>& pairs) {
@@ -181,12 +191,20 @@ Status MovingPairs::find_pairs(std::span<const MovingBox> bodies, std::span<cons
   candidates_ = 0;
   parts_ = asked_parts_ > 0 ? asked_parts_ : cheapest_parts(bodies, swept);
   swept_.resize(std::max(swept_.size(), static_cast<std::size_t>(parts_)));
-  for (int part = 0; part < parts_; ++part) {
-    broad_phase_->build(parts_ == 1 ? swept : sweep(bodies, part));
-    const Status status = broad_phase_->find_pairs(found_);
-    if (status != Status::ok) return status;
-    candidates_ += found_.size();
-    keep_new(bodies, part, pairs);
+  for (int first = 0; first < parts_;) {
+    const auto at_once = static_cast<std::size_t>(std::min(parts_at_once(), parts_ - first));
+    while (searches_.size() < at_once)
+      searches_.emplace_back().broad_phase = broad_phase_->make(*executor_);
+    const std::span<Search> searches = std::span(searches_).first(at_once);
+    const auto work = [&](std::size_t task, int) {
+      search(bodies, swept, first + static_cast<int>(task), searches[task]);
+    };
+    executor_->run(at_once, std::cref(work));
+    for (const Search& search : searches) {
+      if (search.status != Status::ok) return search.status;
+      candidates_ += search.found.size();
+      append_new(first++, search.meeting, pairs);
+    }
   }
   return Status::ok;
 }

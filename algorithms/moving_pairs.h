@@ -30,6 +30,9 @@ Aabb swept_box(const MovingBox& body);
 //        3. An exact test decides which of these pairs' moving boxes meet at some time of the whole
 //           step, so the result does not depend on the cut, the broad phase or the threads, but for
 //           its order.
+// If there are at least as many parts as threads, and the broad phase is not a library's, each thread
+// searches parts of its own: their searches do not wait for each other as the steps of one do.
+//
 // The number of parts is the one with the least expected cost: a search costs a box as much as
 // `box_cost` candidates cost, and the candidates are estimated on a sample of bodies in the middle of
 // the step. It is doubled as long as that pays.
@@ -38,8 +41,9 @@ class MovingPairs {
   static constexpr int most_parts = 64;
   static constexpr double box_cost = 12;
 
-  // `parts` is 0, or a power of two up to most_parts. Both references outlive it.
-  MovingPairs(BroadPhase& broad_phase, Executor& executor, int parts = 0);
+  // `parts` is 0, or a power of two up to most_parts. The broad phase is built (algorithm_info.h). Both
+  // references outlive it.
+  MovingPairs(const BroadPhaseEntry& broad_phase, Executor& executor, int parts = 0);
   ~MovingPairs();
 
   // Writes every pair whose moving boxes share a point in the step, each once, a < b, in an order
@@ -57,13 +61,25 @@ class MovingPairs {
   std::size_t candidates() const { return candidates_; }
 
  private:
+  // A search of one part. Several run at once.
+  struct Search {
+    std::unique_ptr<BroadPhase> broad_phase;
+    PairSink found;
+    std::vector<std::span<const IndexPair>> pieces;  // of what is found
+    PairSink meeting;                                // pairs of each piece whose moving boxes meet
+    Status status = Status::ok;
+  };
+
   double expected_candidates(std::span<const MovingBox> bodies, std::span<const Aabb> swept,
                              int parts);
   int cheapest_parts(std::span<const MovingBox> bodies, std::span<const Aabb> swept);
   std::span<const Aabb> sweep(std::span<const MovingBox> bodies, int part);
-  void keep_new(std::span<const MovingBox> bodies, int part, std::vector<IndexPair>& pairs);
+  int parts_at_once() const;
+  void search(std::span<const MovingBox> bodies, std::span<const Aabb> swept, int part,
+              Search& search);
+  void append_new(int part, const PairSink& meeting, std::vector<IndexPair>& pairs) const;
 
-  BroadPhase* broad_phase_;
+  const BroadPhaseEntry* broad_phase_;
   Executor* executor_;
   int asked_parts_;
   int parts_ = 1;
@@ -72,7 +88,7 @@ class MovingPairs {
   std::vector<Aabb> whole_;               // swept in the step, where the caller has no boxes
   struct Sample;
   std::unique_ptr<Sample> sample_;
-  PairSink found_, kept_;
+  std::vector<Search> searches_;
 };
 
 }  // namespace touchstone

@@ -57,7 +57,7 @@ std::vector<PlannedCell> motion_cells(files::TomlTable& table, const std::filesy
   request.threads = whole_numbers(table, "threads", 1024, 1);
   try {
     request.broad =
-        campaign::select(broad_phases(), table.texts("broad", {"linear-bvh"}), "broad phase");
+        campaign::select(broad_phases(), table.texts("broad", {"packed-rtree"}), "broad phase");
   } catch (const base::InputError& error) {
     table.fail("broad", error.what());
   }

@@ -16,7 +16,7 @@ namespace touchstone::cells {
 namespace {
 
 constexpr int most_substeps = 64;
-constexpr const char* broad_name = "linear-bvh";
+constexpr const char* broad_name = "packed-rtree";
 constexpr const char* ours_in_one_chain = "closed-form+mpr-ray-cast+gjk-ray-cast+rigid-advancement";
 constexpr std::array<const char*, 3> narrow_names = {"closed-form+gjk", "closed-form+gjk-lanes+gjk",
                                                      "sat+closed-form+gjk"};

@@ -28,8 +28,7 @@ ContinuousSteps::ContinuousSteps(const MotionInput& input, ContinuousChoice choi
     : input_(&input),
       choice_(std::move(choice)),
       executor_(&executor),
-      broad_(choice_.broad->make(executor)),
-      moving_(*broad_, executor, choice_.parts),
+      moving_(*choice_.broad, executor, choice_.parts),
       boxes_(input.bodies()),
       swept_(input.bodies()),
       steps_(input.steps.size()) {

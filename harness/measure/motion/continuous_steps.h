@@ -52,7 +52,6 @@ class ContinuousSteps {
   const MotionInput* input_;
   ContinuousChoice choice_;
   Executor* executor_;
-  std::unique_ptr<BroadPhase> broad_;
   MovingPairs moving_;
   std::vector<std::vector<std::unique_ptr<Cast>>> casts_;  // by cast and worker
   std::vector<MovingBox> boxes_;
