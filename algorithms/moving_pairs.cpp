@@ -145,21 +145,25 @@ int MovingPairs::parts_at_once() const {
   return is_library || parts_ < executor_->width() ? 1 : executor_->width();
 }
 
-void MovingPairs::search(std::span<const MovingBox> bodies, std::span<const Aabb> swept, int part,
-                         Search& search) {
-  search.broad_phase->build(parts_ == 1 ? swept : sweep(bodies, part));
-  search.status = search.broad_phase->find_pairs(search.found);
-  if (search.status != Status::ok) return;
-  search.pieces.clear();
-  for (const PairBuffer& chunk : search.found.chunks()) {
-    for (std::size_t i = 0; i < chunk.size(); i += pairs_a_block)
-      search.pieces.push_back(chunk.pairs().subspan(i, std::min(pairs_a_block, chunk.size() - i)));
+// Keeps, of what the searches found, the pairs whose moving boxes meet. One loop for all evens out that
+// parts differ in what they hold.
+void MovingPairs::keep_all_meeting(std::span<const MovingBox> bodies, std::span<Search> searches) {
+  pieces_.clear();
+  for (Search& search : searches) {
+    const std::size_t first = pieces_.size();
+    for (const PairBuffer& chunk : search.found.chunks()) {
+      for (std::size_t i = 0; i < chunk.size(); i += pairs_a_block) {
+        const std::size_t count = std::min(pairs_a_block, chunk.size() - i);
+        pieces_.push_back({&search, pieces_.size() - first, chunk.pairs().subspan(i, count)});
+      }
+    }
+    search.meeting.start(pieces_.size() - first);
   }
-  search.meeting.start(search.pieces.size());
   const auto work = [&](std::size_t task, int) {
-    keep_meeting(bodies, search.pieces[task], search.meeting.chunk(task));
+    const Piece& piece = pieces_[task];
+    keep_meeting(bodies, piece.pairs, piece.search->meeting.chunk(piece.chunk));
   };
-  executor_->run(search.pieces.size(), std::cref(work));
+  executor_->run(pieces_.size(), std::cref(work));
 }
 
 // Appends the pairs that no earlier part has.
@@ -197,11 +201,17 @@ Status MovingPairs::find_pairs(std::span<const MovingBox> bodies, std::span<cons
       searches_.emplace_back().broad_phase = broad_phase_->make(*executor_);
     const std::span<Search> searches = std::span(searches_).first(at_once);
     const auto work = [&](std::size_t task, int) {
-      search(bodies, swept, first + static_cast<int>(task), searches[task]);
+      Search& search = searches[task];
+      const int part = first + static_cast<int>(task);
+      search.broad_phase->build(parts_ == 1 ? swept : sweep(bodies, part));
+      search.status = search.broad_phase->find_pairs(search.found);
     };
     executor_->run(at_once, std::cref(work));
     for (const Search& search : searches) {
       if (search.status != Status::ok) return search.status;
+    }
+    keep_all_meeting(bodies, searches);
+    for (const Search& search : searches) {
       candidates_ += search.found.size();
       append_new(first++, search.meeting, pairs);
     }

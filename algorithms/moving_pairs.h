@@ -65,9 +65,14 @@ class MovingPairs {
   struct Search {
     std::unique_ptr<BroadPhase> broad_phase;
     PairSink found;
-    std::vector<std::span<const IndexPair>> pieces;  // of what is found
-    PairSink meeting;                                // pairs of each piece whose moving boxes meet
+    PairSink meeting;  // those whose moving boxes meet, a chunk for each piece
     Status status = Status::ok;
+  };
+  // A piece of what a search found.
+  struct Piece {
+    Search* search = nullptr;
+    std::size_t chunk = 0;
+    std::span<const IndexPair> pairs;
   };
 
   double expected_candidates(std::span<const MovingBox> bodies, std::span<const Aabb> swept,
@@ -75,8 +80,7 @@ class MovingPairs {
   int cheapest_parts(std::span<const MovingBox> bodies, std::span<const Aabb> swept);
   std::span<const Aabb> sweep(std::span<const MovingBox> bodies, int part);
   int parts_at_once() const;
-  void search(std::span<const MovingBox> bodies, std::span<const Aabb> swept, int part,
-              Search& search);
+  void keep_all_meeting(std::span<const MovingBox> bodies, std::span<Search> searches);
   void append_new(int part, const PairSink& meeting, std::vector<IndexPair>& pairs) const;
 
   const BroadPhaseEntry* broad_phase_;
@@ -89,6 +93,7 @@ class MovingPairs {
   struct Sample;
   std::unique_ptr<Sample> sample_;
   std::vector<Search> searches_;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace touchstone
