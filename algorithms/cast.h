@@ -23,7 +23,8 @@ namespace touchstone {
 struct CastSettings {
   Precision scalar = Precision::float64;
   // The distance of the bodies (metres) at which a hit may be reported, and with it how early. The
-  // default is the algorithm's own, and is no less than what rounding hides.
+  // default is the algorithm's own, and is no less than what rounding hides: some hundred roundings of the
+  // greatest size, distance and displacement.
   std::optional<double> tolerance = {};
   // Greatest number of iterations of each loop of a query; the default is the algorithm's own. A
   // query that needs more returns not_converged.

@@ -37,7 +37,7 @@ struct CcdSettings {
   // Metres, >= 0: features this near to each other are in contact.
   double separation = 0;
   // Greatest number of steps of a query; the default is the algorithm's own. A query that needs more
-  // returns not_converged.
+  // returns not_converged. The exact one has no steps.
   std::optional<int> max_iterations = {};
 };
 

@@ -22,6 +22,7 @@
 
 #include "algorithms/cast.h"
 #include "algorithms/kernels/motion/halfspace_cast.h"
+#include "algorithms/kernels/motion/keep_to_tolerance.h"
 
 namespace touchstone {
 namespace {
@@ -188,6 +189,7 @@ void ClosedFormCast::cast_ball(const Shape& a, const Pose& pose_a, const Motion&
   const double deep = away < path.radius ? away / path.radius : 1;
   outcome.point =
       pose_a.translation + outcome.toi * motion_a.displacement - deep * a.radius * normal;
+  keep_to_tolerance(settings_.tolerance, 16 * path.rounding, outcome);
 }
 
 // Finds the hit, or a miss that the first plane could not prove.

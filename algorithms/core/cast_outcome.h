@@ -36,7 +36,8 @@ struct CastOutcome {
   CastAnswer answer = CastAnswer::unknown;
   // With `ok`, a miss is proven: the bodies share no point at any time in [0, 1] (or, with
   // StartContact::approach, do not approach). A hit says that at `toi` they are no further apart
-  // than the tolerance.
+  // than the tolerance. Where rounding hides more than a tolerance that was asked for, it comes with a proof of
+  // contact, which is `upper`, or is unknown / not_converged.
   Status status = Status::unsupported;
   double toi = none;  // the first time at which the closed bodies share a point; 0 at the start
   // Certified bounds, where the algorithm has them: no point is shared before `lower`, and some is

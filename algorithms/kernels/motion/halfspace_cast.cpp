@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "algorithms/kernels/minkowski/halfspace.h"
+#include "algorithms/kernels/motion/keep_to_tolerance.h"
 
 namespace touchstone {
 
@@ -34,8 +35,9 @@ void cast_halfspace(const SupportShape<double>& a, const Pose& pose_a, const Mot
   const double along = start.normal.dot(velocity);
   // The normal is off by a few roundings, the product and the difference by as many.
   const double doubt = 32 * std::numeric_limits<double>::epsilon() * velocity.stableNorm();
-  const double tolerance = std::max(goal.tolerance.value_or(two ? 0 : 1e-9 * (a.size + a.radius)),
-                                    start.upper - start.lower + 2 * doubt);
+  const double hidden = start.upper - start.lower + 2 * doubt;
+  const double tolerance =
+      std::max(goal.tolerance.value_or(two ? 0 : 1e-9 * (a.size + a.radius)), hidden);
   const double lower_end = start.lower + along - doubt;
   const bool resting = start.lower <= 0;
   if (goal.start == StartContact::approach && resting &&
@@ -67,6 +69,7 @@ void cast_halfspace(const SupportShape<double>& a, const Pose& pose_a, const Mot
   }
   outcome.normal = start.normal;
   outcome.point = start.witness_b + outcome.toi * motion_b.displacement;
+  keep_to_tolerance(goal.tolerance, hidden, outcome);
 }
 
 }  // namespace touchstone

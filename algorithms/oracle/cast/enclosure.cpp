@@ -132,9 +132,9 @@ void write_touch(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, d
 
 }  // namespace
 
-void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, double tolerance,
-             CastOutcome& outcome, std::vector<PartedUntil>* planes) {
-  constexpr int most_steps = 20000;
+void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b,
+             const EnclosureGoal& goal, CastOutcome& outcome, std::vector<PartedUntil>* planes) {
+  const double tolerance = goal.tolerance;
   RoundedPair bodies(oracle, a, b);
   const auto overlap = [&](double time) {
     ++outcome.iterations;
@@ -151,7 +151,7 @@ void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, doubl
     return;
   }
   double time = 0, tried = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < most_steps; ++k) {
+  for (int k = 0; k < goal.most_steps; ++k) {
     ++outcome.iterations;
     const RoundedPair::Bounds bounds = bodies.at(time);
     outcome.lower = time;

@@ -34,10 +34,15 @@ struct PartedUntil {
   double time;
 };
 
+struct EnclosureGoal {
+  double tolerance;  // the path in the bracket of a hit is narrowed to about that (metres)
+  int most_steps = 20000;
+};
+
 // Writes a miss or a hit only if it is proven; otherwise the answer is unknown and the status
-// not_converged, with a proven `lower`. The bracket of a hit is narrowed to a path of about
-// `tolerance` (metres). Adds the planes that parted the bodies, in order of time.
-void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, double tolerance,
-             CastOutcome& outcome, std::vector<PartedUntil>* planes = nullptr);
+// not_converged, with a proven `lower`. Adds the planes that parted the bodies, in order of time.
+void enclose(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b,
+             const EnclosureGoal& goal, CastOutcome& outcome,
+             std::vector<PartedUntil>* planes = nullptr);
 
 }  // namespace touchstone::oracle

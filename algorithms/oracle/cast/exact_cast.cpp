@@ -20,7 +20,8 @@
 // Departs: nothing is rounded but the results: `lower` down and `upper` up to doubles. A miss and a hit
 //          are exact; the bracket is 2^-80 wide before it is rounded. `toi` is its upper end, rounded. An
 //          enclosure narrows until the path in the bracket is about the tolerance, 1e-9 of the size.
-// Fails:   unknown / not_converged after 4,000 times. An enclosure is unknown where the bodies come within
+// Fails:   unknown / not_converged after 4,000 times, or 20,000 of an enclosure, if no other cap is asked for;
+//          GJK at one time has none. An enclosure is unknown where the bodies come within
 //          1e-15 of the path without a proof of either, and where curved cores are that deep in each
 //          other. Half-spaces do not turn. Whether turning bodies approach is unsupported.
 // Cost:    about a tenth of a millisecond for boxes, some for hulls; an enclosure some tens; allocates.
@@ -48,7 +49,7 @@ bool is_polytope(ShapeKind kind) {
 class ExactCast final : public Cast {
  public:
   explicit ExactCast(const CastSettings& settings)
-      : tolerance_(settings.tolerance), start_(settings.start) {}
+      : tolerance_(settings.tolerance), cap_(settings.max_iterations), start_(settings.start) {}
 
   void bind(std::span<const Shape> shapes) override {
     solids_.clear();
@@ -79,7 +80,9 @@ class ExactCast final : public Cast {
       if (is_polytope(batch.kind_a) && is_polytope(batch.kind_b) && !turns) {
         cast(placed_a, *body_a.motion, placed_b, *body_b.motion, outcomes[i]);
       } else {
-        oracle::enclose(oracle_, body_a, body_b, tolerance, outcomes[i]);
+        oracle::EnclosureGoal goal{tolerance};
+        if (cap_) goal.most_steps = *cap_;
+        oracle::enclose(oracle_, body_a, body_b, goal, outcomes[i]);
       }
       if (asks_approach && oracle_.measure(placed_a, placed_b).lower <= tolerance) {
         weigh_start(oracle::approach(oracle_, placed_a, *body_a.motion, placed_b, *body_b.motion,
@@ -104,10 +107,11 @@ class ExactCast final : public Cast {
     }
   }
 
-  static void cast(const Body& a, const Motion& motion_a, const Body& b, const Motion& motion_b,
-                   CastOutcome& outcome);
+  void cast(const Body& a, const Motion& motion_a, const Body& b, const Motion& motion_b,
+            CastOutcome& outcome) const;
 
   std::optional<double> tolerance_;
+  std::optional<int> cap_;
   StartContact start_;
   std::vector<oracle::Solid> solids_;
   std::span<const Shape> shapes_;
@@ -155,13 +159,14 @@ Vec3d point_of(const oracle::LinearContact& contact, const Body& a, const Motion
 }
 
 void ExactCast::cast(const Body& a, const Motion& motion_a, const Body& b, const Motion& motion_b,
-                     CastOutcome& outcome) {
+                     CastOutcome& outcome) const {
   constexpr long exponent = -oracle::MovingCores::time_bits;
   const oracle::MovingCores cores(a, motion_a, b, motion_b);
   outcome.iterations = 0;
   outcome.status = Status::ok;
   oracle::LinearSearch search(cores, outcome.iterations);
-  const oracle::LinearImpact impact = oracle::find_impact(search);
+  const oracle::LinearImpact impact =
+      cap_ ? oracle::find_impact(search, *cap_) : oracle::find_impact(search);
   outcome.answer = impact.answer;
   if (impact.answer == CastAnswer::miss) return;
   if (impact.answer == CastAnswer::unknown) {

@@ -122,8 +122,7 @@ void LinearSearch::add(const IntegerVector& n) {
   known_.push_back(std::move(point));
 }
 
-LinearImpact find_impact(LinearSearch& search) {
-  constexpr int most_times = 4000;
+LinearImpact find_impact(LinearSearch& search, int most_times) {
   const Integer end = Integer(1) << MovingCores::time_bits;
   LinearImpact impact;
   search.go_to(0);

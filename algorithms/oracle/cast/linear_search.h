@@ -81,6 +81,6 @@ struct LinearImpact {
 };
 
 // Runs the search.
-LinearImpact find_impact(LinearSearch& search);
+LinearImpact find_impact(LinearSearch& search, int most_times = 4000);
 
 }  // namespace touchstone::oracle

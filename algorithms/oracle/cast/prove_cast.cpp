@@ -181,7 +181,7 @@ void prove_cast(Oracle& oracle, const EnclosedBody& a, const EnclosedBody& b, do
   }
   CastOutcome outcome;
   std::vector<PartedUntil> planes;
-  enclose(oracle, a, b, tolerance, outcome, &planes);
+  enclose(oracle, a, b, {tolerance}, outcome, &planes);
   certificate.answer = outcome.answer;
   const auto prove_at = [&](double time) {
     Certificate there;

@@ -162,7 +162,10 @@ void add_cast(Arguments command) {
       .show_default("double");
   command
       .number("--tolerance", settings.tolerance,
-              "Distance of the bodies at which a hit may be reported (metres)")
+              "Distance of the bodies at which a hit may be reported (metres; default: 1e-9 of "
+              "their size, or "
+              "what rounding hides; where that is more than was asked for, a hit without a proof "
+              "is unknown)")
       .positive();
   command
       .number("--max-iterations", settings.max_iterations,

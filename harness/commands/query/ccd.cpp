@@ -279,7 +279,8 @@ void add_ccd(Arguments command) {
       .show_default();
   command
       .number("--max-iterations", options->settings.max_iterations,
-              "Greatest number of steps of a query (default: each algorithm's own)")
+              "Greatest number of steps of a query (default: each algorithm's own); the exact one "
+              "has none")
       .positive();
   add_time_limit(command, options->time_limit,
                  fmt::format("Seconds that {} queries may take", ccd_block_size))

@@ -11,6 +11,7 @@
 #include "algorithms/kernels/motion/advancement/round_cores.h"
 #include "algorithms/kernels/motion/advancement/round_planes.h"
 #include "algorithms/kernels/motion/advancement/turning_normal.h"
+#include "algorithms/kernels/motion/keep_to_tolerance.h"
 
 namespace touchstone {
 
@@ -18,6 +19,7 @@ AdvancementSearch::AdvancementSearch(const RelativeMotion& motion, const Advance
     : motion_(motion),
       pair_motion_{motion.displacement(), motion.a().motion->rotation_vector,
                    motion.b().motion->rotation_vector},
+      asked_tolerance_(goal.tolerance),
       lasting_planes_(goal.lasting_planes) {
   const auto size = [](const MovingBody& body, double reach) {
     return std::max(reach, body.shape->size) + body.shape->radius;
@@ -25,9 +27,8 @@ AdvancementSearch::AdvancementSearch(const RelativeMotion& motion, const Advance
   const double larger =
       std::max(size(motion.a(), motion.reach_a()), size(motion.b(), motion.reach_b()));
   // The unit of a pair in contact is below four times its size.
-  const double hidden =
-      16 * (4 * RelativeMotion::pair_rounding * larger + motion.placement_rounding());
-  tolerance_ = std::max(goal.tolerance.value_or(1e-9 * larger), hidden);
+  hidden_ = 16 * (4 * RelativeMotion::pair_rounding * larger + motion.placement_rounding());
+  tolerance_ = std::max(goal.tolerance.value_or(1e-9 * larger), hidden_);
 }
 
 FreeUntil apart_by_balls(const MotionBounds& motion) {
@@ -182,6 +183,11 @@ Advancement AdvancementSearch::apart(const SupportPair<double>& pair, double tim
 void AdvancementSearch::finish(double time, CastOutcome& outcome) const {
   if (!normal_.isZero(0)) outcome.normal = normal_;
   outcome.point = point_;
+  prove_contact(time, outcome);
+  keep_to_tolerance(asked_tolerance_, hidden_, outcome);
+}
+
+void AdvancementSearch::prove_contact(double time, CastOutcome& outcome) const {
   if (!(time > 0)) {
     SupportPair<double> pair = motion_.at(0);
     if (contact_is_proven(pair, motion_.placement_rounding(), outcome.iterations)) {

@@ -56,6 +56,7 @@ class AdvancementSearch {
   void finish(double time, CastOutcome& outcome) const;
 
  private:
+  void prove_contact(double time, CastOutcome& outcome) const;
   // Nothing if GJK must tell.
   std::optional<Advancement> look_at_pair_of_boxes(SupportPair<double>& pair, double time);
   Advancement look_by_gjk(SupportPair<double>& pair, double time, int& iterations);
@@ -70,6 +71,8 @@ class AdvancementSearch {
 
   const RelativeMotion& motion_;
   PairMotion pair_motion_;
+  std::optional<double> asked_tolerance_;
+  double hidden_;     // what rounding hides, metres
   double tolerance_;  // metres
   bool lasting_planes_;
   WarmStart kept_;                // the last look's simplex

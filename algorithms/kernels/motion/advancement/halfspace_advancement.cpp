@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "algorithms/kernels/minkowski/halfspace.h"
+#include "algorithms/kernels/motion/keep_to_tolerance.h"
 
 namespace touchstone {
 namespace {
@@ -65,9 +66,9 @@ void advance_onto_halfspace(const MovingBody& a, const MovingBody& b, const Adva
   double time = 0;
   for (; outcome.iterations < goal.most_steps; ++outcome.iterations) {
     const Outcome found = gaps.at(time);
+    const double hidden = 2 * (found.upper - found.lower);
     const double tolerance =
-        std::max(goal.tolerance.value_or(1e-9 * (a.shape->size + a.shape->radius)),
-                 2 * (found.upper - found.lower));
+        std::max(goal.tolerance.value_or(1e-9 * (a.shape->size + a.shape->radius)), hidden);
     outcome.lower = time;
     if (found.upper <= tolerance) {
       outcome.status = Status::ok;
@@ -86,6 +87,7 @@ void advance_onto_halfspace(const MovingBody& a, const MovingBody& b, const Adva
         outcome.upper = later;
         break;
       }
+      keep_to_tolerance(goal.tolerance, hidden, outcome);
       return;
     }
     const double gap = found.lower, speed = gaps.speed(found.normal);

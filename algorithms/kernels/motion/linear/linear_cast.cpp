@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "algorithms/kernels/motion/halfspace_cast.h"
+#include "algorithms/kernels/motion/keep_to_tolerance.h"
 #include "algorithms/kernels/motion/linear/ball_verdict.h"
 #include "algorithms/kernels/motion/linear/contact_proofs.h"
 
@@ -187,6 +188,9 @@ void LinearCast::finish(Begun& begun, PathEnd end, PathContact& found, CastOutco
   pair.set_inner_radius(a.inner_radius() + b.inner_radius());
   found.simplex = feature;
   if (const auto by = contact_by(pair, found, normal, outcome.iterations)) outcome.upper = *by;
+  // Bodies that approach get deeper into each other than the tolerance, which is proof enough.
+  if (at_start && approach_) return;
+  keep_to_tolerance(settings_.tolerance, 4 * MovingPair::rounding * pair.unit(), outcome);
 }
 
 }  // namespace touchstone
