@@ -139,7 +139,7 @@ std::span<const Aabb> MovingPairs::sweep(std::span<const MovingBox> bodies, int 
   return boxes;
 }
 
-// A library's broad phase may share what it has with others in its thread.
+// Two broad phases of a library may share state, so they do not search at the same time.
 int MovingPairs::parts_at_once() const {
   const bool is_library = broad_phase_->info.origin == Origin::peer;
   return is_library || parts_ < executor_->width() ? 1 : executor_->width();

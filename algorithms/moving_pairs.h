@@ -25,13 +25,14 @@ Aabb swept_box(const MovingBox& body);
 
 // Steps: 1. The step is cut into 1, 2, 4... or 64 parts of equal time. Boxes that move far sweep much
 //           that they are not in at the same time; each cut halves what they sweep.
-//        2. For each part, the broad phase finds the pairs of swept boxes that overlap. A pair that
-//           overlaps in an earlier part too is dropped: it has been seen.
+//        2. For each part, the broad phase finds the pairs of swept boxes that overlap. If there are
+//           at least as many parts as threads, and the broad phase is not a library's, each thread
+//           searches parts of its own: they do not wait for each other as the steps of one search do.
 //        3. An exact test decides which of these pairs' moving boxes meet at some time of the whole
 //           step, so the result does not depend on the cut, the broad phase or the threads, but for
 //           its order.
-// If there are at least as many parts as threads, and the broad phase is not a library's, each thread
-// searches parts of its own: their searches do not wait for each other as the steps of one do.
+//        4. Of those that meet, a pair whose swept boxes overlap in an earlier part too is dropped: it
+//           has been seen. Few pairs are left to be looked up.
 //
 // The number of parts is the one with the least expected cost: a search costs a box as much as
 // `box_cost` candidates cost, and the candidates are estimated on a sample of bodies in the middle of
@@ -93,7 +94,7 @@ class MovingPairs {
   struct Sample;
   std::unique_ptr<Sample> sample_;
   std::vector<Search> searches_;
-  std::vector<Piece> pieces_;
+  std::vector<Piece> pieces_;  // what all searches of the moment found
 };
 
 }  // namespace touchstone
