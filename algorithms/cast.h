@@ -62,6 +62,13 @@ struct CastEntry {
   bool rotation = false;
   // True if it honours StartContact::approach for bodies that do not turn; otherwise it is never made with that.
   bool approach = false;
+  // True if it promises that a hit's time is no later than the contact, but for rounding (1e-14 of the step).
+  // That of others may be late by as much as the bodies move within the tolerance.
+  bool in_time = false;
+  // The tolerance that it has whatever is asked: metres, or a share of the length that the bodies move; 0 if it
+  // takes what is asked.
+  double fixed_tolerance = 0, fixed_share_of_path = 0;
+  double default_tolerance = 0;  // metres, if none is asked; 0: 1e-9 of the size
   // True for the kinds of pairs that it supports, kind_a <= kind_b, if one of them turns or none
   // does; null means all. `solve` never gets other pairs: their outcome is `unsupported`.
   bool (*supports)(ShapeKind kind_a, ShapeKind kind_b, bool turns) = nullptr;

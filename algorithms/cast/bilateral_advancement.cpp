@@ -128,6 +128,7 @@ std::vector<CastEntry> cast_bilateral_advancement() {
                 .citation = "Catto, \"Continuous collision\", GDC 2013, with a proof of each step"},
        .scalars = {Precision::float64},
        .rotation = true,
+       .in_time = true,
        .supports = advancing_cast_supports,
        .make = [](const CastSettings& settings) {
          return std::make_unique<AdvancingCast<BilateralStep>>(settings);

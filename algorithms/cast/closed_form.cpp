@@ -262,6 +262,7 @@ std::vector<CastEntry> cast_closed_form() {
                             "5.3.7"},
        .scalars = {Precision::float64},
        .approach = true,
+       .in_time = true,
        .supports = supports_closed_form,
        .make = [](const CastSettings& settings) {
          return std::make_unique<ClosedFormCast>(settings);

@@ -48,6 +48,7 @@ std::vector<CastEntry> cast_conservative_advancement() {
                             "22, 2006"},
        .scalars = {Precision::float64},
        .rotation = true,
+       .in_time = true,
        .supports = advancing_cast_supports,
        .make = [](const CastSettings& settings) {
          return std::make_unique<AdvancingCast<ConservativeStep>>(settings);

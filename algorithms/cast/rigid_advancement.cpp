@@ -41,6 +41,7 @@ std::vector<CastEntry> cast_rigid_advancement() {
                             "the plane of the closest points parts the turning bodies"},
        .scalars = {Precision::float64},
        .rotation = true,
+       .in_time = true,
        .supports = advancing_cast_supports,
        .make = [](const CastSettings& settings) {
          return std::make_unique<AdvancingCast<RigidStep>>(settings);

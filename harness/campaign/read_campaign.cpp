@@ -9,7 +9,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/files/toml_table.h"
 
 namespace touchstone::campaign {
@@ -75,7 +75,7 @@ std::vector<const Entry*> algorithms(Settings& settings, const std::string& key,
                                      const std::vector<std::string>& usual = {"ours", "peers"}) {
   const std::vector<std::string> names = settings.texts(key, usual);
   try {
-    return select(entries, names, key == "mid_phases" ? "mid-phase" : key + " phase");
+    return kinds::select(entries, names, key == "mid_phases" ? "mid-phase" : key + " phase");
   } catch (const base::InputError& error) {
     settings.of(key).fail(key, error.what());
   }
@@ -142,7 +142,7 @@ std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
       gap_holder.fail("duality_gap",
                       fmt::format("given with '{}', which does not stop by it; "
                                   "expected only {}",
-                                  entry->info.name, names_stopping_by_duality_gap()));
+                                  entry->info.name, kinds::names_stopping_by_duality_gap()));
     }
     for (const Precision scalar : scalars) {
       if (!offers(*entry, scalar)) continue;

@@ -14,7 +14,7 @@
 #include "harness/base/error.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/cells/choices.h"
 #include "harness/cells/kinds.h"
 

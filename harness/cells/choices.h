@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "harness/base/error.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/files/toml_table.h"
 
 namespace touchstone::cells {
@@ -49,7 +49,7 @@ template <class Entry>
 std::vector<const Entry*> selected(files::TomlTable& table, std::span<const Entry> entries,
                                    std::string_view what) {
   try {
-    return campaign::select(entries, table.texts("algorithms", {"ours", "peers"}), what);
+    return kinds::select(entries, table.texts("algorithms", {"ours", "peers"}), what);
   } catch (const base::InputError& error) {
     table.fail("algorithms", error.what());
   }

@@ -24,7 +24,7 @@ std::vector<std::vector<const Entry*>> chains(files::TomlTable& table, std::stri
       if (name.find('+') != std::string::npos) {
         all.push_back(make_chain(name));
       } else {
-        for (const Entry* entry : campaign::select(entries, {name}, what)) all.push_back({entry});
+        for (const Entry* entry : kinds::select(entries, {name}, what)) all.push_back({entry});
       }
     } catch (const base::InputError& error) {
       table.fail(key, error.what());
@@ -57,7 +57,7 @@ std::vector<PlannedCell> motion_cells(files::TomlTable& table, const std::filesy
   request.threads = whole_numbers(table, "threads", 1024, 1);
   try {
     request.broad =
-        campaign::select(broad_phases(), table.texts("broad", {"packed-rtree"}), "broad phase");
+        kinds::select(broad_phases(), table.texts("broad", {"packed-rtree"}), "broad phase");
   } catch (const base::InputError& error) {
     table.fail("broad", error.what());
   }

@@ -9,7 +9,7 @@
 
 #include "algorithms/core/bounds.h"
 #include "algorithms/oracle/certificates/certificate_check.h"
-#include "harness/check/kinds/family_job.h"
+#include "harness/check/families/family_job.h"
 #include "harness/grade/margins.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"

@@ -7,7 +7,7 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/check_request.h"
-#include "harness/check/kinds/family_count.h"
+#include "harness/check/families/family_count.h"
 #include "harness/check/metamorphic.h"
 #include "harness/grade/graded_answer.h"
 

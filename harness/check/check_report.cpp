@@ -10,7 +10,7 @@
 #include "harness/base/table.h"
 #include "harness/check/check_rows.h"
 #include "harness/check/grouped_counts.h"
-#include "harness/check/kinds/family_tables.h"
+#include "harness/check/families/family_tables.h"
 
 namespace touchstone::check {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "harness/check/broad/broad_check.h"
 #include "harness/check/failures.h"
-#include "harness/check/kinds/family_failures.h"
+#include "harness/check/families/family_failures.h"
 #include "harness/check/tally.h"
 
 namespace touchstone::check {

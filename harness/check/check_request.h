@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/check/kinds/family.h"
+#include "harness/kinds/kind.h"
 #include "harness/check/regimes/regimes.h"
 #include "harness/record/part.h"
 
@@ -19,8 +19,8 @@ namespace touchstone::check {
 struct CheckSubjects {
   std::span<const NarrowPhaseEntry* const> narrow;
   std::span<const Regime* const> regimes;
-  std::span<const CaseFamily* const> families = {};
-  std::span<const Contestant> contestants = {};
+  std::span<const kinds::Family* const> families = {};
+  std::span<const kinds::Contestant> contestants = {};
 
   auto narrow_name() const {
     return [narrow = narrow](std::size_t i) -> const std::string& { return narrow[i]->info.name; };
@@ -34,7 +34,7 @@ struct CheckSubjects {
   auto contestant_name() const {
     // Algorithms of two kinds may have one name.
     return [contestants = contestants](std::size_t i) {
-      return std::string(to_string(contestants[i].kind())) + " " + contestants[i].name();
+      return std::string(contestants[i].kind->name()) + " " + contestants[i].name();
     };
   }
 };
@@ -52,8 +52,8 @@ struct CheckRequest {
   std::vector<const BroadPhaseEntry*> broad;
   std::vector<Precision> scalars = {Precision::float64, Precision::float32};
   std::vector<const Regime*> regimes;       // of pairs, for narrow phases
-  std::vector<const CaseFamily*> families;  // of cases, for contestants of their kinds
-  std::vector<Contestant> contestants;
+  std::vector<const kinds::Family*> families;  // of cases, for contestants of their kinds
+  std::vector<kinds::Contestant> contestants;
   std::uint64_t seed = 1;
   int cases = 200;         // number of cases of each regime in a round
   int rounds = 1;          // number of rounds

@@ -10,8 +10,8 @@
 #include "harness/check/check_job.h"
 #include "harness/check/check_rows.h"
 #include "harness/check/job_folder.h"
-#include "harness/check/kinds/family_failures.h"
-#include "harness/check/kinds/family_rows.h"
+#include "harness/check/families/family_failures.h"
+#include "harness/check/families/family_rows.h"
 
 namespace touchstone::check {
 namespace {

@@ -15,7 +15,7 @@ std::pair<std::string, std::string> regimes_fact(const CheckRequest& request) {
   if (!request.narrow.empty()) {
     for (const Regime* regime : request.regimes) regimes.push_back(regime->name);
   }
-  for (const CaseFamily* family : request.families) regimes.push_back(family->name);
+  for (const kinds::Family* family : request.families) regimes.push_back(family->name);
   return {"regimes", fmt::format("{}", fmt::join(regimes, " "))};
 }
 
@@ -25,8 +25,8 @@ record::ResultFolderPlan job_folder(const CheckRequest& request, std::string wor
   std::vector<std::string_view> narrow, scalars;
   for (const NarrowPhaseEntry* entry : request.narrow) narrow.push_back(entry->info.name);
   std::vector<std::string> contestants;
-  for (const Contestant& contestant : request.contestants) {
-    contestants.push_back(fmt::format("{} {}", to_string(contestant.kind()), contestant.name()));
+  for (const kinds::Contestant& contestant : request.contestants) {
+    contestants.push_back(fmt::format("{} {}", contestant.kind->name(), contestant.name()));
   }
   for (const Precision scalar : request.scalars) scalars.push_back(to_string(scalar));
   record::Facts notes = {{std::string(work), request.resume ? "resumed" : "whole"}};

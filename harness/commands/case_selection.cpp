@@ -1,22 +1,25 @@
 // Options that select algorithms and cases.
 #include "harness/commands/case_selection.h"
 
+#include <fmt/format.h>
+
 #include <string>
+#include <string_view>
 
 namespace touchstone::commands {
 
 void add_kinds(Arguments& command, check::CaseSelection& selection) {
-  const auto add = [&](check::CaseKind kind, const char* what) {
-    command.text("--" + std::string(to_string(kind)),
-                 selection.others[static_cast<std::size_t>(kind)],
-                 std::string(what) + ": names, all, ours, peers, none");
+  command.text("--with", selection.with,
+               "Algorithms of all kinds: names, all, ours, libraries, oracle, none");
+  command.text("--kind", selection.kinds,
+               "Only these kinds: pair, box, mesh, ray, point, cast, feature, scene-ray");
+  const auto add = [&](std::string_view option, std::string& list, std::string_view kind) {
+    command.text("--" + std::string(option), list,
+                 fmt::format("The same as --with for the kind {} alone", kind));
   };
-  add(check::CaseKind::concave, "Concave phases");
-  add(check::CaseKind::rays, "Ray casts");
-  add(check::CaseKind::points, "Point queries");
-  add(check::CaseKind::cast, "Casts of moving bodies");
-  add(check::CaseKind::ccd, "Continuous collision of features");
-  add(check::CaseKind::scene_rays, "Ray casts of scenes");
+  for (const kinds::Kind* kind : kinds::kinds()) {
+    add(kind->old_name(), selection.others[kind], kind->name());
+  }
 }
 
 void add_selection(Arguments& command, check::CaseSelection& selection) {

@@ -6,7 +6,7 @@
 
 namespace touchstone::commands {
 
-// Adds --concave, --rays, --points, --cast, --ccd and --scene-rays.
+// Adds --with and --kind, and an option for each kind by its old name.
 void add_kinds(Arguments& command, check::CaseSelection& selection);
 // Adds these, --regimes and --groups.
 void add_selection(Arguments& command, check::CaseSelection& selection);

@@ -58,8 +58,8 @@ int check(CheckOptions& options, const std::string& command) {
 void add_check(Arguments command) {
   const auto options = std::make_shared<CheckOptions>();
   check::CheckRequest& request = options->request;
-  add_case_options(command, request, options->selection.narrow, options->out, "check", "check");
-  command.text("--broad", options->selection.broad, "Broad phases: names, all, ours, peers, none");
+  add_case_options(command, request, options->selection.pair, options->out, "check", "check");
+  command.text("--broad", options->selection.box, "Broad phases: names, all, ours, peers, none");
   add_selection(command, options->selection);
   command.number("--cases", request.cases, "Cases of each regime or family in a round")
       .within(1, 1'000'000)

@@ -14,7 +14,7 @@
 
 #include "harness/base/error.h"
 #include "harness/campaign/campaign.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
@@ -83,9 +83,9 @@ report::RecordingRequest recording_request(const ReportOptions& options) {
   request.most_frames = options.frames;
   request.time_limit = options.time_limit;
   request.narrow =
-      campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
+      kinds::select(narrow_phases(), kinds::split_names(options.narrow), "narrow phase");
   request.broad =
-      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
+      kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
   return request;
 }
 

@@ -8,7 +8,7 @@
 #include "harness/base/error.h"
 #include "harness/campaign/plan.h"
 #include "harness/campaign/runner.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures/page.h"
@@ -67,9 +67,9 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   group.threads = options.threads;
   group.rebuild = options.rebuild;
   group.broad =
-      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
+      kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
   for (const NarrowPhaseEntry* entry :
-       campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase")) {
+       kinds::select(narrow_phases(), kinds::split_names(options.narrow), "narrow phase")) {
     for (const Precision scalar : options.scalars) {
       if (!offers(*entry, scalar)) continue;
       NarrowPhaseSettings settings{.scalar = scalar};
@@ -80,8 +80,8 @@ campaign::Campaign campaign_of(const RunOptions& options) {
     }
   }
   group.concave = measure::concave_choices(
-      campaign::select(concave_phases(), campaign::split_names(options.concave), "concave phase"),
-      campaign::select(mid_phases(), campaign::split_names(options.mids), "mid-phase"),
+      kinds::select(concave_phases(), kinds::split_names(options.concave), "concave phase"),
+      kinds::select(mid_phases(), kinds::split_names(options.mids), "mid-phase"),
       options.scalars);
   group.tasks = options.tasks;
   group.pairing = options.product ? campaign::Pairing::product : campaign::Pairing::separate;

@@ -24,7 +24,7 @@ struct SoakOptions {
 
 int soak(SoakOptions& options) {
   check::SoakRequest& request = options.request;
-  if (options.selection.is_unsaid()) options.selection.narrow = "certified";
+  if (options.selection.is_unsaid()) options.selection.pair = "certified";
   check::select_cases(options.selection, "none", request);
   request.out = results_folder(options.out, "soak");
   const check::SoakResult result = check::run_soak(request);
@@ -38,7 +38,7 @@ int soak(SoakOptions& options) {
 void add_soak(Arguments command) {
   const auto options = std::make_shared<SoakOptions>();
   check::SoakRequest& request = options->request;
-  add_case_options(command, request, options->selection.narrow, options->out, "soak", "soak");
+  add_case_options(command, request, options->selection.pair, options->out, "soak", "soak");
   add_selection(command, options->selection);
   command
       .number("--pairs", request.pairs,

@@ -69,7 +69,7 @@ int stress(StressOptions& options, const std::string& command) {
 void add_stress(Arguments command) {
   const auto options = std::make_shared<StressOptions>();
   check::StressRequest& request = options->request;
-  add_case_options(command, request, options->selection.narrow, options->out, "stress", "sweep");
+  add_case_options(command, request, options->selection.pair, options->out, "stress", "sweep");
   add_kinds(command, options->selection);
   command.text("--axes", options->axes, "Axes: names joined by commas (default: all)");
   const Option cases =

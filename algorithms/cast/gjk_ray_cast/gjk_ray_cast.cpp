@@ -136,6 +136,7 @@ std::vector<CastEntry> cast_gjk_ray_cast() {
       .scalars = {Precision::float64},
       .rotation = false,
       .approach = true,
+      .in_time = true,
       .make = [](const CastSettings& settings) {
         return std::make_unique<GjkRayCast>(settings, false);
       }};

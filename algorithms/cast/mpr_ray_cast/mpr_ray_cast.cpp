@@ -141,6 +141,7 @@ std::vector<CastEntry> cast_mpr_ray_cast() {
       .scalars = {Precision::float64},
       .rotation = false,
       .approach = true,
+      .in_time = true,
       .supports = [](ShapeKind kind_a, ShapeKind kind_b,
                      bool) { return is_polytope(kind_a) && is_polytope(kind_b); },
       .make =

@@ -203,6 +203,7 @@ std::vector<CastEntry> oracle_exact_cast() {
        .scalars = {Precision::float64},
        .rotation = true,
        .approach = true,
+       .in_time = true,
        .supports = supports_exact,
        .make = [](const CastSettings& settings) { return std::make_unique<ExactCast>(settings); }}};
 }

@@ -130,6 +130,7 @@ std::vector<CastEntry> peers_fcl_casts() {
                     "misses contacts at the end, and some of polytopes and at the start"},
        .scalars = {Precision::float64},
        .rotation = true,
+       .fixed_share_of_path = 1e-4,
        .supports = supports,
        .make = make_advancement},
       {.info = {.name = "fcl-naive",
@@ -138,6 +139,7 @@ std::vector<CastEntry> peers_fcl_casts() {
                 .known_defect = "tries ten times, and misses contacts between them"},
        .scalars = {Precision::float64},
        .rotation = true,
+       .fixed_share_of_path = 1e-4,
        .supports = supports,
        .make = make_naive_cast}};
 }

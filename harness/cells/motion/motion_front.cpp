@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "harness/base/table.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/files/text_file.h"
 #include "harness/stats/cells/cell_rows.h"
 #include "harness/trade/front.h"
@@ -70,7 +70,7 @@ MotionRequest default_motion_trade(const std::filesystem::path& scene,
   request.threads = {threads};
   request.broad = {find_broad_phase(broad_name)};
   request.casts = {cast_chain(ours_in_one_chain)};
-  for (const CastEntry* entry : campaign::select(casts(), {"ours", "peers"}, "cast"))
+  for (const CastEntry* entry : kinds::select(casts(), {"ours", "peers"}, "cast"))
     request.casts.push_back({entry});
   for (const char* names : narrow_names) request.narrow.push_back(narrow_chain(names));
   for (int substeps = 1; substeps <= most_substeps; substeps *= 2)

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "harness/base/hash.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/measure/motion/continuous_steps.h"
 #include "harness/measure/motion/discrete_steps.h"
 
@@ -198,7 +198,7 @@ std::vector<const Entry*> chain(const std::string& names, std::span<const Entry>
   std::string rest = names;
   for (;;) {
     const std::size_t plus = rest.find('+');
-    const std::vector<const Entry*> one = campaign::select(entries, {rest.substr(0, plus)}, what);
+    const std::vector<const Entry*> one = kinds::select(entries, {rest.substr(0, plus)}, what);
     if (one.size() != 1) {
       throw base::InputError(fmt::format("found '{}' in '{}'; expected the name of one {}",
                                          rest.substr(0, plus), names, what));

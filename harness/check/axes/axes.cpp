@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "harness/base/error.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/check/axes/axis_draws.h"
-#include "harness/check/kinds/family.h"
+#include "harness/kinds/kind.h"
 
 namespace touchstone::check {
 namespace {
@@ -23,34 +23,34 @@ constexpr std::array<double, 17> parts = {1e0,   1e-1,  1e-2,  1e-3,  1e-4,  1e-
                                           1e-6,  1e-7,  1e-8,  1e-9,  1e-10, 1e-11,
                                           1e-12, 1e-13, 1e-14, 1e-15, 1e-16};
 
-std::vector<AxisValue> up_to(std::size_t exponent) {
-  std::vector<AxisValue> values;
+std::vector<kinds::AxisValue> up_to(std::size_t exponent) {
+  std::vector<kinds::AxisValue> values;
   for (std::size_t k = 0; k <= exponent; ++k) values.push_back({fmt::format("1e{}", k), powers[k]});
   return values;
 }
 
-std::vector<AxisValue> down_to(std::size_t exponent) {
-  std::vector<AxisValue> values = {{"1e0", 1}};
+std::vector<kinds::AxisValue> down_to(std::size_t exponent) {
+  std::vector<kinds::AxisValue> values = {{"1e0", 1}};
   for (std::size_t k = 1; k <= exponent; ++k) values.push_back({fmt::format("1e-{}", k), parts[k]});
   return values;
 }
 
-std::vector<AxisValue> from_zero(std::vector<AxisValue> values) {
+std::vector<kinds::AxisValue> from_zero(std::vector<kinds::AxisValue> values) {
   values.insert(values.begin(), {"0", 0});
   return values;
 }
 // Drops the value 1, so that the values begin at a tenth.
-std::vector<AxisValue> from_a_tenth(std::vector<AxisValue> values) {
+std::vector<kinds::AxisValue> from_a_tenth(std::vector<kinds::AxisValue> values) {
   values.erase(values.begin());
   return values;
 }
-std::vector<AxisValue> and_zero(std::vector<AxisValue> values) {
+std::vector<kinds::AxisValue> and_zero(std::vector<kinds::AxisValue> values) {
   values.push_back({"0", 0});
   return values;
 }
 
-std::vector<AxisValue> counts() {
-  std::vector<AxisValue> values = {{"4", 4}};
+std::vector<kinds::AxisValue> counts() {
+  std::vector<kinds::AxisValue> values = {{"4", 4}};
   for (std::size_t k = 1; k <= 5; ++k) values.push_back({fmt::format("1e{}", k), powers[k]});
   return values;
 }
@@ -106,13 +106,13 @@ std::vector<const StressAxis*> select_axes(const std::string& names) {
     for (const StressAxis& axis : axes()) chosen.push_back(&axis);
     return chosen;
   }
-  for (const std::string& name : campaign::split_names(names)) {
+  for (const std::string& name : kinds::split_names(names)) {
     const auto at = std::ranges::find(axes(), name, &StressAxis::name);
     if (at == axes().end()) {
       std::vector<std::string_view> known;
       for (const StressAxis& axis : axes()) known.push_back(axis.name);
-      for (const CaseFamily& family : axis_families()) {
-        if (known.back() != family.axis) known.push_back(family.axis);
+      for (const kinds::Family* family : kinds::axis_families()) {
+        if (known.back() != family->axis) known.push_back(family->axis);
       }
       throw base::InputError(
           fmt::format("no axis is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
@@ -126,7 +126,7 @@ std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes) {
   std::vector<StressCell> cells;
   for (const StressAxis* axis : axes) {
     for (std::size_t place = 0; place < axis->values.size(); ++place) {
-      const AxisValue& value = axis->values[place];
+      const kinds::AxisValue& value = axis->values[place];
       cells.push_back({axis,
                        place,
                        {.name = fmt::format("stress-{}-{}", axis->name, value.name),

@@ -14,19 +14,15 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/regimes/regimes.h"
+#include "harness/kinds/family.h"
 
 namespace touchstone::check {
-
-struct AxisValue {
-  std::string name;  // such as "1e-3"; "0" if the property is absent
-  double value = 0;
-};
 
 struct StressAxis {
   std::string name;               // "scale-down": lower case, words joined by '-'
   std::string unit;               // unit of the values, in words
   std::string what;               // one line of description
-  std::vector<AxisValue> values;  // from mild to extreme
+  std::vector<kinds::AxisValue> values;  // from mild to extreme
   bool extreme = true;            // see Regime
   RegimeCase (*draw)(RegimeDraw&) = nullptr;
   // Returns whether the exact answer is the requested one (size: pair_size, metres). Null if the
@@ -42,7 +38,7 @@ struct StressCell {
   std::size_t place = 0;  // place in the axis' values
   Regime regime;          // its parameter is the value
 
-  const AxisValue& value() const { return axis->values[place]; }
+  const kinds::AxisValue& value() const { return axis->values[place]; }
 };
 
 std::span<const StressAxis> axes();

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/check/kinds/family_job.h"
+#include "harness/check/families/family_job.h"
 #include "harness/grade/answer_count.h"
 #include "harness/grade/pair_size.h"
 #include "harness/process/queries/limited_query.h"

@@ -7,7 +7,7 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/axes/stress_row.h"
-#include "harness/check/kinds/family_count.h"
+#include "harness/check/families/family_count.h"
 #include "harness/grade/true_case.h"
 
 namespace touchstone::check {

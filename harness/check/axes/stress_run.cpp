@@ -8,8 +8,8 @@
 #include "harness/base/progress.h"
 #include "harness/check/axes/worst_cases.h"
 #include "harness/check/job_folder.h"
-#include "harness/check/kinds/family_failures.h"
-#include "harness/check/kinds/family_rows.h"
+#include "harness/check/families/family_failures.h"
+#include "harness/check/families/family_rows.h"
 
 namespace touchstone::check {
 namespace {
@@ -46,7 +46,7 @@ record::ResultFolderPlan stress_folder(const StressRequest& request) {
   for (const StressCell& cell : request.cells) {
     if (cell.place == 0) axes += (axes.empty() ? "" : " ") + cell.axis->name;
   }
-  for (const CaseFamily* family : request.families) axes += " " + family->name;
+  for (const kinds::Family* family : request.families) axes += " " + family->name;
   return job_folder(request, "sweep", {"axes", axes},
                     {{"stress.csv", record::header_of<StressRow>(request)},
                      {"cells.csv", record::header_of<CellSummary>(request)},

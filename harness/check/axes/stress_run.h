@@ -7,7 +7,7 @@
 #include "harness/check/axes/envelope.h"
 #include "harness/check/axes/stress_cell.h"
 #include "harness/check/failures.h"
-#include "harness/check/kinds/family_count.h"
+#include "harness/check/families/family_count.h"
 #include "harness/record/result_folder.h"
 
 namespace touchstone::check {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "harness/base/error.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/check/requests/select_cases.h"
 #include "harness/check/requests/select_narrow.h"
 #include "harness/files/toml_table.h"
@@ -54,10 +54,10 @@ CaseSelection read_algorithms(files::TomlTable& table) {
     return table.has(key) ? list_of(table, key) : std::string();
   };
   CaseSelection selection;
-  selection.narrow = read("narrow");
-  for (const CaseKind kind : all_case_kinds) {
-    selection.others[static_cast<std::size_t>(kind)] = read(to_string(kind));
-  }
+  selection.with = read("with");
+  selection.kinds = read("kinds");
+  selection.pair = read("narrow");
+  for (const kinds::Kind* kind : kinds::kinds()) selection.others[kind] = read(kind->old_name());
   return selection;
 }
 
@@ -71,15 +71,15 @@ void expect_algorithms(files::TomlTable& table, const CaseSelection& selection,
       return true;
     });
   };
-  expect("narrow", selection.narrow,
+  expect("narrow", selection.pair,
          [&](const auto& list) { narrow_phases_to_grade(list, request.scalars); });
-  expect("broad", selection.broad, [](const auto& list) {
-    campaign::select(broad_phases(), campaign::split_names(list), "broad phase");
+  expect("broad", selection.box, [](const auto& list) {
+    kinds::select(broad_phases(), kinds::split_names(list), "broad phase");
   });
-  for (const CaseKind kind : all_case_kinds) {
-    expect(
-        to_string(kind), selection.others[static_cast<std::size_t>(kind)],
-        [&](const auto& list) { contestants(kind, campaign::split_names(list), request.scalars); });
+  for (const auto& [kind, names] : selection.others) {
+    expect(kind->old_name(), names, [&, kind = kind](const auto& list) {
+      kind->contestants(kinds::split_names(list), request.scalars);
+    });
   }
 }
 
@@ -99,7 +99,7 @@ CheckRequest read_check(files::TomlTable& table) {
   CheckRequest request;
   read_common(table, request);
   CaseSelection selection = read_algorithms(table);
-  if (table.has("broad")) selection.broad = list_of(table, "broad");
+  if (table.has("broad")) selection.box = list_of(table, "broad");
   read_cases_of(table, selection, "all", request);
   request.cases = static_cast<int>(table.integer("cases", 1, 1'000'000, request.cases));
   request.rounds = static_cast<int>(table.integer("rounds", 1, 1'000'000'000, 1));
@@ -124,7 +124,7 @@ SoakRequest read_soak(files::TomlTable& table) {
   SoakRequest request;
   read_common(table, request);
   CaseSelection selection = read_algorithms(table);
-  if (selection.is_unsaid()) selection.narrow = "certified";
+  if (selection.is_unsaid()) selection.pair = "certified";
   read_cases_of(table, selection, "none", request);
   request.pairs = table.integer("pairs", 1, 1'000'000'000'000, request.pairs);
   return request;

@@ -5,18 +5,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 #include <vector>
 
 #include "harness/base/error.h"
-#include "harness/campaign/selection.h"
 #include "harness/check/requests/select_narrow.h"
+#include "harness/kinds/grading.h"
+#include "harness/kinds/selection.h"
 
 namespace touchstone::check {
 namespace {
 
 std::vector<std::string> names_of(const std::string& list) {
-  return list.empty() ? std::vector<std::string>{} : campaign::split_names(list);
+  return list.empty() ? std::vector<std::string>{} : kinds::split_names(list);
 }
 
 template <class Field>
@@ -26,7 +28,7 @@ void expect_known(std::string_view what, const std::vector<std::string>& asked, 
     if (std::ranges::find(known, name) == known.end()) known.push_back(name);
   };
   for (const Regime& regime : regimes()) add(field(regime));
-  for (const CaseFamily& family : case_families()) add(field(family));
+  for (const kinds::Family* family : kinds::case_families()) add(field(*family));
   for (const std::string& name : asked) {
     if (std::ranges::find(known, name) != known.end()) continue;
     throw base::InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name,
@@ -34,27 +36,98 @@ void expect_known(std::string_view what, const std::vector<std::string>& asked, 
   }
 }
 
+// A kind of algorithms that can be selected.
+struct Selectable {
+  std::string_view name, old_name;
+  std::vector<const AlgorithmInfo*> algorithms;
+
+  bool has(std::string_view algorithm) const {
+    return std::ranges::any_of(algorithms,
+                               [&](const AlgorithmInfo* one) { return one->name == algorithm; });
+  }
+};
+
+std::vector<Selectable> all_selectable() {
+  std::vector<Selectable> all = {{"pair", "narrow", kinds::infos_of(narrow_phases())},
+                                 {"box", "broad", kinds::infos_of(broad_phases())}};
+  for (const kinds::Kind* kind : kinds::kinds()) {
+    all.push_back({kind->name(), kind->old_name(), kind->algorithms()});
+  }
+  return all;
+}
+
+// The kinds that are named, or all. Throws InputError for a name that there is not.
+std::vector<Selectable> selected_kinds(const std::string& list) {
+  std::vector<Selectable> all = all_selectable(), chosen;
+  if (list.empty()) return all;
+  for (const std::string& name : kinds::split_names(list)) {
+    const auto at = std::ranges::find_if(
+        all, [&](const Selectable& kind) { return name == kind.name || name == kind.old_name; });
+    if (at == all.end()) {
+      std::vector<std::string_view> known;
+      for (const Selectable& kind : all) known.push_back(kind.name);
+      throw base::InputError(fmt::format("no kind is called '{}'; expected some of {}", name,
+                                         fmt::join(known, ", ")));
+    }
+    chosen.push_back(*at);
+  }
+  return chosen;
+}
+
+// What of the list each kind has; nothing where it has nothing. Throws InputError for a name that no kind has.
+std::map<std::string_view, std::string> shares_of(const std::string& list,
+                                                  const std::vector<Selectable>& selectable) {
+  std::map<std::string_view, std::string> shares;
+  for (const std::string& name : kinds::split_names(list)) {
+    bool is_known = false;
+    for (const Selectable& kind : selectable) {
+      if (!kinds::is_group(name) && !kind.has(name)) continue;
+      is_known = true;
+      std::string& share = shares[kind.name];
+      share += (share.empty() ? "" : ",") + name;
+    }
+    if (is_known) continue;
+    std::vector<std::string_view> known = {"all", "ours", "libraries", "oracle", "none"};
+    for (const Selectable& kind : selectable) {
+      for (const AlgorithmInfo* one : kind.algorithms) known.push_back(one->name);
+    }
+    throw base::InputError(fmt::format("no algorithm is called '{}'; expected some of {}", name,
+                                       fmt::join(known, ", ")));
+  }
+  return shares;
+}
+
 void select_algorithms(const CaseSelection& selection, const char* fallback,
                        CheckRequest& request) {
+  std::map<std::string_view, std::string> shares;
+  if (!selection.with.empty() || !selection.kinds.empty()) {
+    shares = shares_of(selection.with.empty() ? "all" : selection.with,
+                       selected_kinds(selection.kinds));
+  }
   const bool none_named = selection.is_unsaid();
-  const auto named = [&](const std::string& list) {
-    return !list.empty() ? list : none_named ? std::string(fallback) : std::string("none");
+  const auto named = [&](std::string_view kind, const std::string& list) {
+    const auto share = shares.find(kind);
+    if (!list.empty()) return share == shares.end() ? list : list + "," + share->second;
+    if (share != shares.end()) return share->second;
+    return none_named ? std::string(fallback) : std::string("none");
   };
-  request.narrow = narrow_phases_to_grade(named(selection.narrow), request.scalars);
-  request.broad = campaign::select(broad_phases(), campaign::split_names(named(selection.broad)),
-                                   "broad phase");
+  request.narrow = narrow_phases_to_grade(named("pair", selection.pair), request.scalars);
+  request.broad = kinds::select(broad_phases(), kinds::split_names(named("box", selection.box)),
+                                "broad phase");
   request.contestants.clear();
-  for (const CaseKind kind : all_case_kinds) {
-    const std::string list = named(selection.others[static_cast<std::size_t>(kind)]);
-    for (Contestant& one : contestants(kind, campaign::split_names(list), request.scalars)) {
+  for (const kinds::Kind* kind : kinds::kinds()) {
+    const auto at = selection.others.find(kind);
+    const std::string list =
+        named(kind->name(), at == selection.others.end() ? std::string() : at->second);
+    for (kinds::Contestant& one : kind->contestants(kinds::split_names(list), request.scalars)) {
       request.contestants.push_back(std::move(one));
     }
   }
 }
 
-bool takes(const CheckRequest& request, const CaseFamily& family) {
-  return std::ranges::any_of(request.contestants, [&](const Contestant& contestant) {
-    return contestant.kind() == family.kind;
+bool takes(const CheckRequest& request, const kinds::Family& family) {
+  return std::ranges::any_of(request.contestants, [&](const kinds::Contestant& contestant) {
+    return contestant.kind == family.kind;
   });
 }
 
@@ -72,15 +145,16 @@ void select_regimes_and_families(const CaseSelection& selection, CheckRequest& r
   for (const Regime& regime : regimes()) {
     if (is_chosen(regime)) request.regimes.push_back(&regime);
   }
-  for (const CaseFamily& family : case_families()) {
-    if (takes(request, family) && is_chosen(family)) request.families.push_back(&family);
+  for (const kinds::Family* family : kinds::case_families()) {
+    if (takes(request, *family) && is_chosen(*family)) request.families.push_back(family);
   }
 }
 
 }  // namespace
 
 bool CaseSelection::is_unsaid() const {
-  return narrow.empty() && broad.empty() && std::ranges::all_of(others, &std::string::empty);
+  return with.empty() && kinds.empty() && pair.empty() && box.empty() &&
+         std::ranges::all_of(others, [](const auto& named) { return named.second.empty(); });
 }
 
 void select_cases(const CaseSelection& selection, const char* fallback, CheckRequest& request) {
@@ -89,8 +163,8 @@ void select_cases(const CaseSelection& selection, const char* fallback, CheckReq
   const bool some_named = !selection.regimes.empty() || !selection.groups.empty();
   if (some_named && request.period() == 0) {
     throw base::InputError(
-        "no algorithm that is named takes cases of these regimes; expected names of another kind, "
-        "such as --narrow, --concave, --rays, --points, --cast, --ccd or --scene-rays");
+        "no algorithm that is named takes cases of these regimes; expected algorithms of another "
+        "kind");
   }
 }
 
@@ -101,8 +175,9 @@ void select_axes_and_algorithms(const CaseSelection& selection, const std::strin
   std::string of_pairs;  // axes of narrow phases, and what is known to neither
   const auto wanted = names_of(axes);
   for (const std::string& name : wanted) {
-    const auto families = axis_families();
-    if (std::ranges::find(families, name, &CaseFamily::axis) != families.end()) continue;
+    const auto families = kinds::axis_families();
+    const auto has_name = [&](const kinds::Family* family) { return family->axis == name; };
+    if (std::ranges::any_of(families, has_name)) continue;
     of_pairs += (of_pairs.empty() ? "" : ",") + name;
   }
   request.cells.clear();
@@ -111,9 +186,9 @@ void select_axes_and_algorithms(const CaseSelection& selection, const std::strin
   if (!request.narrow.empty() && (all || !of_pairs.empty())) {
     request.cells = cells_of(select_axes(of_pairs));
   }
-  for (const CaseFamily& family : axis_families()) {
-    const bool is_chosen = all || std::ranges::find(wanted, family.axis) != wanted.end();
-    if (is_chosen && takes(request, family)) request.families.push_back(&family);
+  for (const kinds::Family* family : kinds::axis_families()) {
+    const bool is_chosen = all || std::ranges::find(wanted, family->axis) != wanted.end();
+    if (is_chosen && takes(request, *family)) request.families.push_back(family);
   }
   if (request.job_count() == 0) {
     select_axes(of_pairs);  // throws for a name that there is not

@@ -2,21 +2,25 @@
 // commands check and soak, and by files of requests.
 #pragma once
 
-#include <array>
+#include <map>
 #include <string>
 
 #include "harness/check/axes/stress_request.h"
 #include "harness/check/check_request.h"
+#include "harness/kinds/kind.h"
 
 namespace touchstone::check {
 
 // What a user names, each a list joined by commas. Empty: nothing was said.
 struct CaseSelection {
-  std::string narrow, broad;
-  std::array<std::string, all_case_kinds.size()> others;  // in the order of CaseKind
-  std::string regimes, groups;                            // of regimes and families
+  std::string with;   // algorithms of all kinds, or of those in `kinds`
+  std::string kinds;  // names of kinds: pair, box, and those of kinds::kinds()
+  // Algorithms of one kind.
+  std::string pair, box;
+  std::map<const kinds::Kind*, std::string> others;
+  std::string regimes, groups;  // of regimes and families
 
-  bool is_unsaid() const;  // no kind of algorithms is named
+  bool is_unsaid() const;  // no algorithms and no kind is named
 };
 
 // Fills in the algorithms, regimes and families of the request, whose scalars are set. If some kind

@@ -6,17 +6,17 @@
 #include <algorithm>
 
 #include "harness/base/error.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 
 namespace touchstone::check {
 
 std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
                                                             std::span<const Precision> scalars) {
-  const std::vector<std::string> list = campaign::split_names(names);
+  const std::vector<std::string> list = kinds::split_names(names);
   const auto is_named = [&](const NarrowPhaseEntry* entry) {
     return std::ranges::find(list, entry->info.name) != list.end();
   };
-  auto chosen = campaign::select(narrow_phases(), list, "narrow phase");
+  auto chosen = kinds::select(narrow_phases(), list, "narrow phase");
   std::erase_if(chosen, [&](const NarrowPhaseEntry* entry) {
     return entry->info.origin == Origin::oracle && !is_named(entry);
   });

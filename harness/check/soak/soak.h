@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "harness/check/check_request.h"
-#include "harness/check/kinds/family_count.h"
-#include "harness/check/kinds/family_failures.h"
+#include "harness/check/families/family_count.h"
+#include "harness/check/families/family_failures.h"
 #include "harness/record/result_folder.h"
 
 namespace touchstone::check {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/base/table.h"
-#include "harness/check/kinds/family_tables.h"
+#include "harness/check/families/family_tables.h"
 
 namespace touchstone::check {
 

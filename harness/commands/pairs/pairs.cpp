@@ -10,7 +10,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/hash.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pairs/contender.h"
@@ -104,7 +104,7 @@ std::vector<char> read_resting(const std::string& file,
 
 void pairs(const PairsOptions& options) {
   const auto entries =
-      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
+      kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
   const std::vector<scene::BoxFrame> frames = scene::read_box_frames(options.file);
   const std::vector<char> is_resting =
       options.resting.empty() ? std::vector<char>{} : read_resting(options.resting, frames);

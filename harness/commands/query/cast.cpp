@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
@@ -129,7 +129,7 @@ void cast(const CastOptions& options) {
         "--save-certificates: there are proofs only of casts where contact at time 0 counts; "
         "expected --start counts");
   }
-  const auto entries = campaign::select(casts(), campaign::split_names(options.casts), "cast");
+  const auto entries = kinds::select(casts(), kinds::split_names(options.casts), "cast");
   const std::vector<files::CastCase> cases = files::read_cast_cases(options.cases);
   files::check_outputs({{"CASES", options.cases}},
                        {{"--out", options.out}, {"--save-certificates", options.saved}});

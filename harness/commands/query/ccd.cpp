@@ -16,7 +16,7 @@
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
 #include "harness/base/table.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
@@ -235,7 +235,7 @@ int run_ccd(const CcdOptions& options) {
   } else {
     throw base::InputError("--kind is missing; expected vertex-face or edge-edge with a file");
   }
-  auto entries = campaign::select(ccds(), campaign::split_names(options.algorithms),
+  auto entries = kinds::select(ccds(), kinds::split_names(options.algorithms),
                                   "algorithm of continuous collision");
   const files::CcdQueries first = files::read_ccd_queries(files.front().file);
   std::vector<files::NamedFile> inputs;

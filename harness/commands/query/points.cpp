@@ -14,7 +14,7 @@
 #include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/file_text.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
@@ -153,7 +153,7 @@ void ask_points(const PointsOptions& options) {
   expect_without_certificates(options.points, "--points");
   expect_without_certificates(options.out, "--out");
   const auto entries =
-      campaign::select(point_queries(), campaign::split_names(options.query), "point query");
+      kinds::select(point_queries(), kinds::split_names(options.query), "point query");
   geometry::Mesh read = geometry::read_surface(options.mesh);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   if (options.task == PointTask::side) check_closed(options.mesh, mesh);

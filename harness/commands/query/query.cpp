@@ -10,7 +10,7 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/file_text.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/parts_proofs.h"
@@ -108,7 +108,7 @@ bool asks_concave_phases(const QueryOptions& options,
                          const std::vector<files::ConcaveCase>& cases) {
   if (!options.asked.of_convex) return true;
   if (!std::ranges::all_of(cases, &files::ConcaveCase::is_convex)) return true;
-  return std::ranges::any_of(campaign::split_names(options.narrow), [](const std::string& name) {
+  return std::ranges::any_of(kinds::split_names(options.narrow), [](const std::string& name) {
     return find_concave_phase(name) != nullptr && find_narrow_phase(name) == nullptr;
   });
 }
@@ -151,13 +151,13 @@ void ask_concave_phases(const QueryOptions& options, const HeededBySome& heeded,
 
 void ask_narrow_phases(const QueryOptions& options, const std::vector<files::Case>& cases) {
   const auto entries =
-      campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
+      kinds::select(narrow_phases(), kinds::split_names(options.narrow), "narrow phase");
   for (const NarrowPhaseEntry* entry : entries) {
     if (!options.settings.duality_gap || entry->traits.stops_by_duality_gap) continue;
     throw base::InputError(
         fmt::format("--duality-gap was given for '{}', which does not stop by it; "
                     "expected only {}",
-                    entry->info.name, campaign::names_stopping_by_duality_gap()));
+                    entry->info.name, kinds::names_stopping_by_duality_gap()));
   }
   files::check_outputs({{"CASES", options.cases}}, {{"--out", options.out}});
   std::vector<Answers> all;

@@ -10,7 +10,7 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/hash.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/query/query_rows.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
@@ -38,8 +38,8 @@ class ConcaveQueryRun {
  public:
   ConcaveQueryRun(const ConcaveQuery& query, const std::vector<files::ConcaveCase>& cases)
       : query_(query), cases_(cases) {
-    const auto* mid = campaign::select(mid_phases(), {query.mid}, "mid-phase").at(0);
-    const auto* parts = campaign::select(narrow_phases(), {query.parts}, "narrow phase").at(0);
+    const auto* mid = kinds::select(mid_phases(), {query.mid}, "mid-phase").at(0);
+    const auto* parts = kinds::select(narrow_phases(), {query.parts}, "narrow phase").at(0);
     if (!answers_for_all(*parts)) {
       throw base::InputError(fmt::format(
           "--parts: the narrow phase '{}' does not answer every task for all convex shapes; "
@@ -190,7 +190,7 @@ void write_contacts(const std::string& file, const std::vector<files::ConcaveCas
 
 void query_concave(const ConcaveQuery& query, const std::vector<files::ConcaveCase>& cases) {
   const auto entries =
-      campaign::select(concave_phases(), campaign::split_names(query.names), "concave phase");
+      kinds::select(concave_phases(), kinds::split_names(query.names), "concave phase");
   const ConcaveQueryRun run(query, cases);
   files::check_outputs(
       {{"CASES", query.cases}},

@@ -13,7 +13,7 @@
 #include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
@@ -119,7 +119,7 @@ int verify_ray_proofs(const std::string& file) {
 
 void cast_rays(const RaysOptions& options) {
   const auto entries =
-      campaign::select(ray_casts(), campaign::split_names(options.cast), "ray cast");
+      kinds::select(ray_casts(), kinds::split_names(options.cast), "ray cast");
   geometry::Mesh read = geometry::read_surface(options.target);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Ray> rays = read_rays(options.rays);

@@ -11,7 +11,7 @@
 #include "algorithms/oracle/rays/exact_scene_ray_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/campaign/selection.h"
+#include "harness/kinds/selection.h"
 #include "harness/commands/query/proofs.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
@@ -128,7 +128,7 @@ void cast_rays_at_scene(const RaysOptions& options) {
   if (options.settings.scalar != Precision::float64) {
     throw base::InputError("--scalar float: rays at scenes are cast in double alone");
   }
-  const auto entries = campaign::select(scene_ray_casts(), campaign::split_names(options.cast),
+  const auto entries = kinds::select(scene_ray_casts(), kinds::split_names(options.cast),
                                         "ray cast of scenes");
   const scene::Scene scene = scene::load_scene(options.target);
   const std::vector<SceneBody> bodies = bodies_at(scene, options.frame, options.target);

@@ -1,6 +1,6 @@
 // Tests that the columns of checks and soaks are documented.
 #include "harness/check/check_rows.h"
-#include "harness/check/kinds/family_rows.h"
+#include "harness/check/families/family_rows.h"
 #include "harness/check/soak/soak_rows.h"
 #include "tests/harness/columns_page.h"
 

@@ -1,10 +1,10 @@
 // Tests the lengths that queries of continuous collision are asked with.
-#include "harness/check/kinds/blocks/motion/ccd_lengths.h"
+#include "harness/kinds/feature/feature_lengths.h"
 
 #include <gtest/gtest.h>
 
 #include "algorithms/oracle/ccd/first_within.h"
-#include "harness/check/kinds/blocks/grading.h"
+#include "harness/kinds/grading.h"
 #include "harness/families/ccd_families.h"
 #include "tests/algorithms/one_in.h"
 
@@ -19,11 +19,11 @@ TEST(CcdLengths, EverySixteenthSeparationIsACloseOne) {
     const int first_count = family.pair == FeaturePair::vertex_face ? 1 : 2;
     for (int index = 0; index < drawn(320, 64); ++index) {
       const auto number = static_cast<std::uint64_t>(index);
-      auto draws = check::draws_of(check::CaseKind::ccd, family_number, 5, number);
+      auto draws = kinds::draws_of(kinds::feature_kind(), family_number, 5, number);
       const CcdQuery query = family.draw(draws);
-      const check::Lengths lengths = check::separated_lengths(number, query, first_count, oracle);
+      const kinds::Lengths lengths = kinds::separated_lengths(number, query, first_count, oracle);
       EXPECT_GT(lengths.separation, 0);
-      EXPECT_EQ(lengths.tolerance, check::ccd_size(number).tolerance);
+      EXPECT_EQ(lengths.tolerance, kinds::ccd_size(number).tolerance);
       if (index % 16 != 0) continue;
       const oracle::ccd::MovingFeatures features{first_count, query.start, query.end};
       // A tolerance less, or more, is the other side of that least distance.

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "harness/check/check_run.h"
-#include "harness/check/kinds/case_block.h"
+#include "harness/kinds/kind.h"
 #include "harness/check/requests/select_cases.h"
 #include "harness/check/soak/soak.h"
 #include "harness/check/soak/soak_text.h"
@@ -24,9 +24,7 @@
 namespace touchstone {
 namespace {
 
-using check::CaseForm;
-using check::CaseGrade;
-using check::CaseKind;
+using kinds::CaseForm;
 using check::FamilyCount;
 using ::testing::Each;
 using ::testing::HasSubstr;
@@ -34,12 +32,12 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 // A family of each kind, in which both outcomes are common.
-std::vector<const check::CaseFamily*> some_families() {
-  std::vector<const check::CaseFamily*> some;
+std::vector<const kinds::Family*> some_families() {
+  std::vector<const kinds::Family*> some;
   for (const char* name : {"triangles-generic", "rays-random", "points-off-1e-3", "casts-on-a-grid",
                            "vertex-face-small-grid-1", "scene-rays-short"}) {
-    for (const check::CaseFamily& family : check::case_families()) {
-      if (family.name == name) some.push_back(&family);
+    for (const kinds::Family* family : kinds::case_families()) {
+      if (family->name == name) some.push_back(family);
     }
   }
   return some;
@@ -48,7 +46,7 @@ std::vector<const check::CaseFamily*> some_families() {
 class FamilyCheck : public ::testing::Test {
  protected:
   template <class Request = check::CheckRequest>
-  Request request_for(std::vector<check::Contestant> contestants) {
+  Request request_for(std::vector<kinds::Contestant> contestants) {
     Request request;
     request.contestants = std::move(contestants);
     request.families = some_families();
@@ -60,9 +58,9 @@ class FamilyCheck : public ::testing::Test {
   }
   // The sums of each kind's contestant, as drawn.
   static std::vector<FamilyCount> sums(const check::FamilyCounts& counts) {
-    std::vector<FamilyCount> all(check::all_case_kinds.size());
+    std::vector<FamilyCount> all(kinds::kinds().size());
     for (const auto& [key, count] : counts) {
-      if (key.form == CaseForm::as_drawn) all[key.contestant].add(count);
+      if (key.form == kinds::CaseForm::as_drawn) all[key.contestant].add(count);
     }
     return all;
   }
@@ -79,7 +77,7 @@ TEST_F(FamilyCheck, ContactsThatAreNotToldAreMissed) {
     EXPECT_GT(count.missed, 0);
     EXPECT_GT(count.right, 0);
     EXPECT_EQ(count.missed, count.contacts);
-    EXPECT_EQ(count.false_hits + count.wrong + count.lost + count.honest, 0);
+    EXPECT_EQ(count.false_hits + count.inexact + count.failed + count.gave_up, 0);
   }
   EXPECT_THAT(result->report.ours_wrong(), Each(HasSubstr("missed")));
   EXPECT_GE(result->report.ours_wrong().size(), 5u);
@@ -98,7 +96,7 @@ TEST_F(FamilyCheck, ContactsThatAreNoneAreFalse) {
     EXPECT_EQ(count.missed, 0);
   }
   // A hit that is told at time 0 is too early.
-  EXPECT_GT(all[static_cast<std::size_t>(CaseKind::cast)].wrong, 0);
+  EXPECT_GT(all[3].inexact, 0);
   EXPECT_THAT(result->report.ours_wrong(), IsEmpty());
 }
 
@@ -106,7 +104,7 @@ TEST_F(FamilyCheck, GivingUpIsHonestAndCrashesAreLost) {
   const PlantedKinds<Habit::gives_up> shy;
   const auto shy_result = check::run_check(request_for(shy.contestants()));
   for (const FamilyCount& count : sums(shy_result->tally.families())) {
-    EXPECT_EQ(count.honest, count.cases);
+    EXPECT_EQ(count.gave_up, count.cases);
   }
   EXPECT_THAT(shy_result->report.ours_wrong(), IsEmpty());
   const PlantedKinds<Habit::crashes> bad;
@@ -114,9 +112,9 @@ TEST_F(FamilyCheck, GivingUpIsHonestAndCrashesAreLost) {
   request.cases = 5;
   const auto result = check::run_check(request);
   for (const FamilyCount& count : sums(result->tally.families())) {
-    EXPECT_EQ(count.lost, count.cases);
+    EXPECT_EQ(count.failed, count.cases);
   }
-  EXPECT_THAT(result->report.ours_wrong(), Each(HasSubstr("lost")));
+  EXPECT_THAT(result->report.ours_wrong(), Each(HasSubstr("failed")));
 }
 
 // The first wrong case of each kind is in a file that shows it again.
@@ -134,7 +132,7 @@ TEST_F(FamilyCheck, CaseFilesHaveTheCase) {
     } else if (name.ends_with(".toml")) {
       EXPECT_GT(scene::load_scene(file.path()).bodies.size(), 10u);
       ++scenes;
-    } else if (name.starts_with("concave")) {
+    } else if (name.starts_with("mesh")) {
       const auto cases = files::read_concave_cases(file.path());
       ASSERT_EQ(cases.size(), 1u);
       EXPECT_TRUE(cases[0].a.mesh && cases[0].b.mesh);
@@ -145,7 +143,7 @@ TEST_F(FamilyCheck, CaseFilesHaveTheCase) {
       ASSERT_EQ(cases.size(), 1u);
       EXPECT_FALSE(cases[0].motion_b.displacement.isZero(0));
       ++casts;
-    } else if (name.starts_with("ccd")) {
+    } else if (name.starts_with("feature")) {
       const auto queries = files::read_ccd_queries(file.path());
       ASSERT_EQ(queries.queries.size(), 1u);
       EXPECT_EQ(queries.contacts[0], 1);
@@ -204,43 +202,43 @@ TEST_F(FamilyCheck, SoaksThatAreTooSmallSaySo) {
 }
 
 TEST(CaseFamilies, TheExactAnswersAgreeInEveryForm) {
-  std::array<std::int64_t, check::all_case_kinds.size()> contacts{}, apart{};
-  std::map<CaseForm, std::int64_t> asked;
+  std::map<const kinds::Kind*, std::int64_t> contacts, apart;
+  std::map<kinds::CaseForm, std::int64_t> asked;
   const std::array scalars = {Precision::float64};
-  for (const check::CaseFamily& family : check::case_families()) {
-    if (family.one_in > 4) continue;  // enclosures, which take long
-    const auto block = make_case_block(family, {3, 0, static_cast<std::size_t>(drawn(20, 6))});
-    for (const check::Contestant& exact : contestants(family.kind, {"exact"}, scalars)) {
-      for (const CaseForm form : check::all_case_forms) {
+  for (const kinds::Family* family : kinds::case_families()) {
+    if (family->one_in > 4) continue;  // enclosures, which take long
+    const auto batch = family->kind->draw(*family, {3, 0, static_cast<std::size_t>(drawn(20, 6))});
+    for (const kinds::Contestant& exact : family->kind->contestants({"exact"}, scalars)) {
+      for (const kinds::CaseForm form : kinds::all_case_forms) {
         FamilyCount count;
-        const auto grades = block->ask(exact, form, 20);
+        const auto grades = batch->ask(exact, form, 20);
         for (std::size_t i = 0; i < grades.size(); ++i) {
           count.add(grades[i], static_cast<std::int64_t>(i));
         }
-        EXPECT_EQ(count.silent() + count.lost, 0) << family.name << " " << exact.name() << " "
+        EXPECT_EQ(count.silent() + count.failed, 0) << family->name << " " << exact.name() << " "
                                                   << to_string(form) << " " << count.first_wrong;
         asked[form] += count.cases;
-        const auto kind = static_cast<std::size_t>(family.kind);
+        const kinds::Kind* kind = family->kind;
         contacts[kind] += count.contacts;
         apart[kind] += count.cases - count.contacts;
       }
     }
   }
-  for (std::size_t kind = 0; kind < contacts.size(); ++kind) {
+  for (const kinds::Kind* kind : kinds::kinds()) {
     EXPECT_GT(contacts[kind], 20);
     EXPECT_GT(apart[kind], 20);
   }
-  for (const CaseForm form : check::all_case_forms) EXPECT_GT(asked[form], 20) << to_string(form);
+  for (const kinds::CaseForm form : kinds::all_case_forms) EXPECT_GT(asked[form], 20) << to_string(form);
 }
 
 TEST(CaseFamilies, HaveNamesOfTheirOwn) {
   std::set<std::string> names;
-  for (const check::CaseFamily& family : check::case_families()) {
-    EXPECT_TRUE(names.insert(family.name).second) << family.name;
-    EXPECT_EQ(family.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789+-"),
+  for (const kinds::Family* family : kinds::case_families()) {
+    EXPECT_TRUE(names.insert(family->name).second) << family->name;
+    EXPECT_EQ(family->name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789+-"),
               std::string::npos)
-        << family.name;
-    EXPECT_EQ(check::find_regime(family.name), nullptr) << family.name;
+        << family->name;
+    EXPECT_EQ(check::find_regime(family->name), nullptr) << family->name;
   }
 }
 
@@ -248,18 +246,18 @@ TEST(SelectCases, WhatIsNamedAloneIsTaken) {
   check::CheckRequest request;
   select_cases({}, "all", request);
   EXPECT_FALSE(request.narrow.empty() || request.broad.empty() || request.regimes.empty());
-  EXPECT_EQ(request.families.size(), check::case_families().size());
+  EXPECT_EQ(request.families.size(), kinds::case_families().size());
   check::CaseSelection casts;
-  casts.others[static_cast<std::size_t>(CaseKind::cast)] = "gjk-ray-cast";
+  casts.others[&kinds::cast_kind()] = "gjk-ray-cast";
   select_cases(casts, "all", request);
   EXPECT_TRUE(request.narrow.empty() && request.broad.empty());
-  for (const check::Contestant& one : request.contestants) {
-    EXPECT_EQ(one.info().name, "gjk-ray-cast");
+  for (const kinds::Contestant& one : request.contestants) {
+    EXPECT_EQ(one.info->name, "gjk-ray-cast");
   }
-  for (const check::CaseFamily* family : request.families) EXPECT_EQ(family->kind, CaseKind::cast);
+  for (const kinds::Family* family : request.families) EXPECT_EQ(family->kind, &kinds::cast_kind());
   casts.groups = "turns";
   select_cases(casts, "all", request);
-  for (const check::CaseFamily* family : request.families) EXPECT_EQ(family->group, "turns");
+  for (const kinds::Family* family : request.families) EXPECT_EQ(family->group, "turns");
   casts.groups = "rays";
   EXPECT_THAT(input_fault([&] { select_cases(casts, "all", request); }),
               HasSubstr("no algorithm that is named takes cases of these regimes"));

@@ -4,7 +4,7 @@
 #include <csignal>
 #include <memory>
 
-#include "harness/check/kinds/contestant.h"
+#include "harness/kinds/grading.h"
 
 namespace touchstone {
 
@@ -108,7 +108,7 @@ struct PlantedCcd final : Ccd {
   }
 };
 
-// One of each kind, in the order of CaseKind, in double; of points the side is asked.
+// One of each kind, in the order of kinds::kinds(), in double; of points the side is asked.
 template <Habit habit>
 struct PlantedKinds {
   Origin origin = Origin::ours;
@@ -135,10 +135,13 @@ struct PlantedKinds {
                                  return std::make_unique<PlantedSceneRays<habit>>();
                                }};
 
-  std::vector<check::Contestant> contestants() const {
-    return {{&concave, Precision::float64, 0}, {&rays, Precision::float64, 1},
-            {&points, Precision::float64, 1},  {&cast, Precision::float64, 0},
-            {&ccd, Precision::float64, 0},     {&scene_rays, Precision::float64, 1}};
+  std::vector<kinds::Contestant> contestants() const {
+    const auto of = [](const kinds::Kind& kind, const auto& entry, std::uint8_t task) {
+      return kinds::contestant_of(kind, entry, true, Precision::float64, task);
+    };
+    return {of(kinds::mesh_kind(), concave, 0), of(kinds::ray_kind(), rays, 1),
+            of(kinds::point_kind(), points, 1), of(kinds::cast_kind(), cast, 0),
+            of(kinds::feature_kind(), ccd, 0),  of(kinds::scene_ray_kind(), scene_rays, 1)};
   }
 };
 

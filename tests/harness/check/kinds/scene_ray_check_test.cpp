@@ -17,12 +17,12 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 // All families of rays at scenes.
-check::CheckRequest request_of(std::vector<check::Contestant> contestants) {
+check::CheckRequest request_of(std::vector<kinds::Contestant> contestants) {
   check::CheckRequest request;
   request.scalars = {Precision::float64};
   request.contestants = std::move(contestants);
-  for (const check::CaseFamily& family : check::case_families()) {
-    if (family.kind == check::CaseKind::scene_rays) request.families.push_back(&family);
+  for (const kinds::Family* family : kinds::case_families()) {
+    if (family->kind == &kinds::scene_ray_kind()) request.families.push_back(family);
   }
   return request;
 }
@@ -32,17 +32,17 @@ TEST(SceneRayCheck, AnotherBodyOrLengthThanTheFirstIsWrong) {
                                  .tasks = {RayTask::closest},
                                  .make = [] { return std::make_unique<AstraySceneRays>(); }};
   const TemporaryFolder folder;
-  check::CheckRequest request = request_of({{&astray, Precision::float64, 0}});
+  check::CheckRequest request = request_of({contestant_of(kinds::scene_ray_kind(), astray, true)});
   request.families.resize(1);
   request.cases = 100;
   request.out = folder.path() / "out";
   const auto result = check::run_check(request);
   check::FamilyCount count;
   for (const auto& [key, one] : result->tally.families()) {
-    if (key.form == check::CaseForm::as_drawn) count.add(one);
+    if (key.form == kinds::CaseForm::as_drawn) count.add(one);
   }
   EXPECT_EQ(count.cases, 100);
-  EXPECT_GT(count.wrong, 20);
+  EXPECT_GT(count.inexact, 20);
   EXPECT_LE(count.right, count.cases - count.contacts);
   EXPECT_EQ(count.missed + count.false_hits + count.near, 0);
   EXPECT_THAT(result->report.ours_wrong(), Not(IsEmpty()));
@@ -53,7 +53,7 @@ TEST(SceneRayCheck, TwoWorkersCountAsOne) {
   const TemporaryFolder folder;
   constexpr std::array scalars = {Precision::float64};
   check::CheckRequest request =
-      request_of(contestants(check::CaseKind::scene_rays, {"ours"}, scalars));
+      request_of(kinds::scene_ray_kind().contestants({"ours"}, scalars));
   request.cases = 50;
   std::array<std::string, 2> counted;
   for (const int workers : {1, 2}) {

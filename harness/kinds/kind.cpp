@@ -1,0 +1,82 @@
+// The list of kinds, and what all of them do alike.
+#include "harness/kinds/kind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace touchstone::kinds {
+
+std::span<const Kind* const> kinds() {
+  static const std::array<const Kind*, 6> all = {&mesh_kind(), &ray_kind(),     &point_kind(),
+                                                 &cast_kind(), &feature_kind(), &scene_ray_kind()};
+  return all;
+}
+
+const Kind* find_kind(std::string_view name) {
+  const auto all = kinds();
+  const auto at = std::ranges::find_if(
+      all, [&](const Kind* kind) { return kind->name() == name || kind->old_name() == name; });
+  return at == all.end() ? nullptr : *at;
+}
+
+std::span<const Family> Kind::families() const {
+  if (families_.empty()) {
+    families_ = list_families();
+    for (std::uint32_t number = 0; Family & family : families_) {
+      family.kind = this;
+      family.number = number++;
+    }
+  }
+  return families_;
+}
+
+namespace {
+
+std::vector<const Family*> chosen_families(bool of_axes) {
+  std::vector<const Family*> chosen;
+  for (const Kind* kind : kinds()) {
+    for (const Family& family : kind->families()) {
+      if (family.axis.empty() != of_axes) chosen.push_back(&family);
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<const Family*> case_families() { return chosen_families(false); }
+std::vector<const Family*> axis_families() { return chosen_families(true); }
+
+std::string_view Contestant::task_name() const { return kind->tasks()[task]; }
+
+std::string Contestant::name() const {
+  return fmt::format("{} {} {}", info->name, to_string(scalar), task_name());
+}
+
+std::string_view to_string(CaseForm form) {
+  constexpr std::array<std::string_view, all_case_forms.size()> names = {
+      "as drawn", "swapped", "scaled", "moved", "reversed", "split"};
+  return names[static_cast<std::size_t>(form)];
+}
+
+std::vector<AxisValue> decades(int first, int last) {
+  std::vector<AxisValue> values;
+  const int step = first < last ? 1 : -1;
+  for (int e = first; e != last + step; e += step) {
+    const std::string name = fmt::format("1e{}", e);
+    values.push_back({name, std::stod(name)});
+  }
+  return values;
+}
+
+void add_axis(std::vector<Family>& list, const std::string& axis, std::span<const AxisValue> values) {
+  for (const AxisValue& at : values) {
+    list.push_back(
+        {.name = axis + "-" + at.name, .group = "axes", .axis = axis, .value = at.name});
+  }
+}
+
+}  // namespace touchstone::kinds

@@ -1,0 +1,78 @@
+// A kind of query, such as rays at meshes: what is asked, who answers, what is right.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/kinds/batch.h"
+#include "harness/kinds/family.h"
+
+namespace touchstone::kinds {
+
+class Kind {
+ public:
+  struct Words {
+    std::string_view name;      // "point": in options, columns, campaigns, folders
+    std::string_view old_name;  // "points": what an option or a key was called before
+    std::string_view title;     // "Points": a heading
+    std::string_view contract;  // "point query": what messages call its algorithms
+    // What its grades mean: what contact is, and the margins and tolerances, the same for every origin.
+    std::string_view legend;
+    std::span<const std::string_view> tasks;
+    std::uint32_t draw_number;  // with a family's number, it decides the draws of a case
+  };
+
+  explicit Kind(const Words& words) : words_(words) {}
+  virtual ~Kind() = default;
+  Kind(const Kind&) = delete;
+  Kind& operator=(const Kind&) = delete;
+
+  std::string_view name() const { return words_.name; }
+  std::string_view old_name() const { return words_.old_name; }
+  std::string_view title() const { return words_.title; }
+  std::string_view contract() const { return words_.contract; }
+  std::string_view legend() const { return words_.legend; }
+  std::span<const std::string_view> tasks() const { return words_.tasks; }
+  std::uint32_t draw_number() const { return words_.draw_number; }
+
+  // What the registry has of the kind, built or not.
+  virtual std::vector<const AlgorithmInfo*> algorithms() const = 0;
+  // The algorithms of these names and groups, with each of the scalars and tasks that they offer. The oracle
+  // belongs to no group. Throws InputError for an unknown name.
+  virtual std::vector<Contestant> contestants(const std::vector<std::string>& names,
+                                              std::span<const Precision> scalars) const = 0;
+  // All families in a stable order, first those that are no values of axes.
+  std::span<const Family> families() const;
+  virtual std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const = 0;
+
+ private:
+  // Lists the families; kind and number are filled in.
+  virtual std::vector<Family> list_families() const = 0;
+
+  Words words_;
+  mutable std::vector<Family> families_;  // listed when they are first asked for
+};
+
+// All kinds that have families, in the order of pages and tables.
+std::span<const Kind* const> kinds();
+
+// Returns the kind with this name or old name; null if there is none.
+const Kind* find_kind(std::string_view name);
+
+// The families of all kinds, in the order of kinds(): those that are no values of axes, and those that are.
+std::vector<const Family*> case_families();
+std::vector<const Family*> axis_families();
+
+// Each kind is a room, which defines its own.
+const Kind& mesh_kind();
+const Kind& ray_kind();
+const Kind& point_kind();
+const Kind& cast_kind();
+const Kind& feature_kind();
+const Kind& scene_ray_kind();
+
+}  // namespace touchstone::kinds

@@ -1,0 +1,177 @@
+// The kind of rays at triangle meshes: families, batches, contestants.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "algorithms/core/nearest_float.h"
+#include "harness/families/aimed_rays.h"
+#include "harness/kinds/grading.h"
+#include "harness/kinds/mesh_cases.h"
+#include "harness/kinds/ray/ray_file.h"
+#include "harness/kinds/ray/ray_grade.h"
+#include "harness/scene/writing/scene_writer.h"
+
+namespace touchstone::kinds {
+namespace {
+
+const std::vector<families::NamedMesh>& ray_meshes() {
+  static const std::vector<families::NamedMesh> all = families::ray_meshes();
+  return all;
+}
+
+Ray scaled_ray(Ray ray, double scale) {
+  ray.origin *= scale;
+  ray.direction *= scale;
+  return ray;
+}
+
+// From how far rays are cast (metres), on the axis.
+const std::vector<AxisValue>& distances() {
+  static const std::vector<AxisValue> all = decades(0, 15);
+  return all;
+}
+
+// Families of the axis come after the aims.
+auto drawing_rays(std::uint32_t number) {
+  return [number](const TriangleMesh& mesh, std::size_t triangle, families::Draws& draws) {
+    constexpr std::size_t aims = families::all_ray_aims.size();
+    if (number < aims) {
+      return families::aimed_ray(families::all_ray_aims[number], mesh, triangle, draws);
+    }
+    return families::ray_from(distances()[number - aims].value, mesh, triangle, draws);
+  };
+}
+
+auto solver_of(const RayCastEntry& entry, RayTask task, Precision scalar) {
+  return [task, cast = std::shared_ptr<RayCast>(entry.make({scalar}))](
+             const TriangleMesh& mesh, std::span<const Ray> rays, std::span<RayHit> hits) {
+    cast->bind(mesh);
+    cast->cast(task, rays, hits);
+  };
+}
+
+class RayBatch final : public Batch {
+ public:
+  RayBatch(std::uint32_t number, const BatchRange& range)
+      : rays_(ray_meshes(), ray_kind(), number, range, drawing_rays(number), scaled_ray) {}
+
+  std::vector<Graded> ask(const Contestant& contestant, CaseForm form,
+                              double time_limit) override {
+    const auto& entry = contestant.of<RayCastEntry>();
+    const auto task = static_cast<RayTask>(contestant.task);
+    std::vector<Graded> grades(rays_.size());
+    rays_.ask(
+        form, time_limit, [&](std::size_t i) { return in_form(i, contestant.scalar, form); },
+        [&] { return solver_of(entry, task, contestant.scalar); },
+        [&](std::size_t i, const RayHit& hit) { grades[i] = grade(contestant, entry, i, hit); });
+    return grades;
+  }
+
+  std::string write(const Contestant& contestant, std::size_t place,
+                    const std::filesystem::path& stem) const override {
+    const std::string mesh = stem.string() + ".off", rays = stem.string() + ".csv";
+    scene::write_off(mesh, rays_.mesh(place));
+    write_ray(rays, rays_[place]);
+    return fmt::format(
+        "touchstone query {} --in {} --with exact,{} --task {} --scalar {} --out hits.csv", rays,
+        mesh, contestant.info->name, contestant.task_name(), to_string(contestant.scalar));
+  }
+
+ private:
+  std::optional<std::pair<TriangleMesh, Ray>> in_form(std::size_t i, Precision scalar,
+                                                      CaseForm form) const {
+    const FormNumbers numbers = rays_.numbers(i);
+    TriangleMesh mesh = rays_.mesh(i);
+    if (form == CaseForm::scaled) {
+      for (Vec3d& vertex : mesh.vertices) vertex *= numbers.scale;
+      return std::pair(std::move(mesh), scaled_ray(rays_[i], numbers.scale));
+    }
+    if (form != CaseForm::moved) return std::nullopt;
+    const Vec3d shift =
+        scalar == Precision::float64 ? Vec3d(rays_.scale(i) * numbers.shift) : Vec3d(0, 0, 0);
+    auto moved = moved_mesh(std::move(mesh), numbers, shift);
+    Ray ray = rays_[i];
+    const auto origin = exact_sum(numbers.turn(ray.origin), shift);
+    if (!moved || !origin) return std::nullopt;
+    ray.origin = *origin;
+    ray.direction = numbers.turn(ray.direction);
+    return std::pair(std::move(*moved), ray);
+  }
+
+  const RayHit& truth(std::size_t i, Precision scalar) {
+    auto& known = truths_[scalar];
+    if (known.empty()) {
+      known = rays_.answers(solver_of(*find_ray_cast("exact"), RayTask::closest, scalar));
+    }
+    return known[i];
+  }
+
+  Graded grade(const Contestant& contestant, const RayCastEntry& entry, std::size_t i,
+                   const RayHit& hit) {
+    const double size = rays_.scale(i) / rays_[i].direction.lpNorm<Eigen::Infinity>();
+    return grade_ray(static_cast<RayTask>(contestant.task), hit, truth(i, contestant.scalar), entry,
+                     contestant.scalar, size);
+  }
+
+  MeshCases<Ray, RayHit> rays_;
+  std::map<Precision, std::vector<RayHit>> truths_;
+};
+
+constexpr std::array<std::string_view, 2> ray_tasks = {"closest", "any"};
+
+class RayKind final : public Kind {
+ public:
+  RayKind()
+      : Kind({.name = "ray",
+              .old_name = "rays",
+              .title = "Rays",
+              .contract = "ray cast",
+              .legend =
+                  "A contact is a hit. *Inexact*: another triangle (of those that promise it), or a "
+                  "length that is off by more than 1e-9 of itself and the mesh's size (float "
+                  "without exact verdicts: 1e-4).",
+              .tasks = ray_tasks,
+              .draw_number = 2}) {}
+
+  std::vector<const AlgorithmInfo*> algorithms() const override {
+    return infos_of(ray_casts());
+  }
+
+  std::vector<Contestant> contestants(const std::vector<std::string>& names,
+                                      std::span<const Precision> scalars) const override {
+    return contestants_of(
+        *this, ray_casts(), names, scalars,
+        [](const RayCastEntry& entry, Precision scalar, std::uint8_t task) {
+          return offers(entry, static_cast<RayTask>(task)) && offers(entry, scalar);
+        },
+        [](const RayCastEntry& entry) { return entry.exact_verdicts; });
+  }
+
+  std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
+    return std::make_unique<RayBatch>(family.number, range);
+  }
+
+ private:
+  std::vector<Family> list_families() const override {
+    std::vector<Family> list;
+    for (const families::RayAim aim : families::all_ray_aims) {
+      list.push_back({.name = "rays-" + std::string(to_string(aim)), .group = "rays"});
+    }
+    add_axis(list, "ray-distance", distances());
+    return list;
+  }
+};
+
+}  // namespace
+
+const Kind& ray_kind() {
+  static const RayKind kind;
+  return kind;
+}
+
+}  // namespace touchstone::kinds

@@ -1,0 +1,86 @@
+// Selects algorithms by names that the user gives.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+
+namespace touchstone::kinds {
+
+// Returns the names of a list such as "sap,naive".
+inline std::vector<std::string> split_names(std::string_view list) {
+  std::vector<std::string> names;
+  for (;;) {
+    const std::size_t comma = list.find(',');
+    names.emplace_back(list.substr(0, comma));
+    if (comma == std::string_view::npos) return names;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+// Returns the entries of these names, in the order named, each once. "all" means every one that is
+// built; "ours", "libraries" (or "peers") and "oracle" mean those of that origin; "none" means none. Throws
+// InputError for an unknown name, with the list of known names, and for one that is not built, with
+// the reason. `what` is "broad phase" or "narrow phase".
+template <class Entry>
+std::vector<const Entry*> select(std::span<const Entry> entries,
+                                 const std::vector<std::string>& names, std::string_view what) {
+  std::vector<const Entry*> chosen;
+  const auto choose = [&](const Entry& entry) {
+    if (std::ranges::find(chosen, &entry) == chosen.end()) chosen.push_back(&entry);
+  };
+  for (const std::string& name : names) {
+    if (name == "none") continue;
+    std::optional<Origin> origin;
+    if (name == "ours") origin = Origin::ours;
+    if (name == "libraries" || name == "peers") origin = Origin::peer;
+    if (name == "oracle") origin = Origin::oracle;
+    if (name == "all" || origin) {
+      for (const Entry& entry : entries) {
+        const bool wanted = !origin || entry.info.origin == *origin;
+        if (wanted && is_built(entry.info)) choose(entry);
+      }
+      continue;
+    }
+    const auto at =
+        std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
+    if (at == entries.end()) {
+      std::string known = "all, ours, libraries, oracle, none";
+      for (const Entry& entry : entries) known += ", " + entry.info.name;
+      throw base::InputError(
+          fmt::format("no {} is called '{}'; expected some of {}", what, name, known));
+    }
+    if (!is_built(at->info)) {
+      throw base::InputError(
+          fmt::format("the {} '{}' is not built, because {}", what, name, at->info.reason));
+    }
+    choose(*at);
+  }
+  return chosen;
+}
+
+// True for a word that selects algorithms of a whole group, or none.
+inline bool is_group(std::string_view name) {
+  constexpr std::array groups = {"all", "ours", "libraries", "peers", "oracle", "none"};
+  return std::ranges::find(groups, name) != groups.end();
+}
+
+// Returns the list for a message about a wrong request.
+inline std::string names_stopping_by_duality_gap() {
+  std::string names;
+  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+    if (entry.traits.stops_by_duality_gap) names += (names.empty() ? "" : ", ") + entry.info.name;
+  }
+  return names;
+}
+
+}  // namespace touchstone::kinds
