@@ -22,14 +22,14 @@ namespace {
 enum File : std::size_t { grades_file, raw_file };
 
 struct Graded {
-  Grade grade;
+  kinds::TimedGrade grade;
   double seconds = 0;  // of one answer to all queries
   process::ItemState state = process::ItemState::not_run;
 };
 
-std::vector<Graded> grade(const Cell& cell, double time_limit) {
+std::vector<Graded> grade(const kinds::TimedSet& cell, double time_limit) {
   struct Shared {
-    Grade grade;
+    kinds::TimedGrade grade;
     double seconds;
   };
   process::SharedArray<Shared> shared(cell.contestants.size());
@@ -53,8 +53,8 @@ std::vector<Graded> grade(const Cell& cell, double time_limit) {
 
 // A contestant of one of the cells that share their rounds.
 struct Timed {
-  const PlannedCell* planned;
-  const Contestant* contestant;
+  const kinds::PlannedSet* planned;
+  const kinds::TimedContestant* contestant;
   std::int64_t queries;
   double seconds;  // of one answer to all queries
 };
@@ -65,8 +65,8 @@ std::vector<Timed> shuffled(std::vector<Timed> order, base::Random random) {
 }
 
 // The cells, each with those that join it.
-std::vector<std::span<const PlannedCell>> with_joined(std::span<const PlannedCell> cells) {
-  std::vector<std::span<const PlannedCell>> all;
+std::vector<std::span<const kinds::PlannedSet>> with_joined(std::span<const kinds::PlannedSet> cells) {
+  std::vector<std::span<const kinds::PlannedSet>> all;
   for (std::size_t first = 0, end = 1; first < cells.size(); first = end, ++end) {
     while (end < cells.size() && cells[end].joins_last) ++end;
     all.push_back(cells.subspan(first, end - first));
@@ -83,9 +83,9 @@ class CellRun {
   CellRunResult run(const std::function<void(const std::string&)>& say) {
     const process::InterruptGuard guard;
     note_earlier_grades();
-    const std::vector<std::span<const PlannedCell>> all = with_joined(request_.cells);
+    const std::vector<std::span<const kinds::PlannedSet>> all = with_joined(request_.cells);
     for (std::size_t i = static_cast<std::size_t>(folder_.units()); i < all.size(); ++i) {
-      for (const PlannedCell& planned : all[i]) {
+      for (const kinds::PlannedSet& planned : all[i]) {
         say(fmt::format("[{}/{}] {}, {}", &planned - request_.cells.data() + 1,
                         request_.cells.size(), planned.group, planned.name));
       }
@@ -127,21 +127,21 @@ class CellRun {
   }
 
   // Returns false if it was interrupted.
-  bool measure(std::span<const PlannedCell> joined, std::size_t number) {
-    std::vector<Cell> cells;
-    for (const PlannedCell& planned : joined) cells.push_back(planned.make());
+  bool measure(std::span<const kinds::PlannedSet> joined, std::size_t number) {
+    std::vector<kinds::TimedSet> cells;
+    for (const kinds::PlannedSet& planned : joined) cells.push_back(planned.make());
     std::vector<Timed> timed;
     for (std::size_t k = 0; k < joined.size(); ++k) {
-      const PlannedCell& planned = joined[k];
-      const Cell& cell = cells[k];
+      const kinds::PlannedSet& planned = joined[k];
+      const kinds::TimedSet& cell = cells[k];
       const std::vector<Graded> graded = grade(cell, request_.time_limit);
       for (std::size_t i = 0; i < graded.size(); ++i) {
-        const Contestant& contestant = cell.contestants[i];
+        const kinds::TimedContestant& contestant = cell.contestants[i];
         write_grade(planned, cell, contestant, graded[i]);
         if (graded[i].state == process::ItemState::done && graded[i].seconds <= request_.time_limit)
           timed.push_back({&planned, &contestant, cell.queries, graded[i].seconds});
       }
-      for (const LeftOut& left_out : cell.left_out) write_left_out(planned, cell, left_out);
+      for (const kinds::LeftOut& left_out : cell.left_out) write_left_out(planned, cell, left_out);
     }
     // What is cold is not timed, and takes longer than the samples, so that it would cut them short.
     for (Timed& one : timed) {
@@ -159,7 +159,7 @@ class CellRun {
     return true;
   }
 
-  void write_grade(const PlannedCell& planned, const Cell& cell, const Contestant& contestant,
+  void write_grade(const kinds::PlannedSet& planned, const kinds::TimedSet& cell, const kinds::TimedContestant& contestant,
                    const Graded& graded) {
     stats::GradeRow row;
     row.group = planned.group;
@@ -167,13 +167,16 @@ class CellRun {
     row.algorithm = contestant.name;
     row.origin = to_string(contestant.origin);
     row.approximate = contestant.approximate;
-    row.tolerant = contestant.tolerant;
     row.queries = cell.queries;
+    row.truth = cell.truth;
     row.graded = cell.graded;
+    row.near = graded.grade.near;
     row.missed = graded.grade.missed;
     row.false_hits = graded.grade.false_hits;
-    row.other = graded.grade.other;
-    row.unknown = graded.grade.unknown;
+    row.inexact = graded.grade.inexact;
+    row.bound = graded.grade.bound;
+    row.gave_up = graded.grade.gave_up;
+    row.unresolved = graded.grade.unresolved;
     row.error = graded.grade.error;
     row.hits = graded.grade.hits;
     row.true_hits = graded.grade.true_hits;
@@ -183,7 +186,7 @@ class CellRun {
     folder_.write(grades_file, row);
   }
 
-  void write_left_out(const PlannedCell& planned, const Cell& cell, const LeftOut& left_out) {
+  void write_left_out(const kinds::PlannedSet& planned, const kinds::TimedSet& cell, const kinds::LeftOut& left_out) {
     stats::GradeRow row;
     row.group = planned.group;
     row.cell = planned.name;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/cells/cell.h"
+#include "harness/kinds/timed_set.h"
 #include "harness/record/facts.h"
 #include "harness/record/result_folder.h"
 
@@ -15,7 +15,7 @@ namespace touchstone::cells {
 
 struct CellRequest {
   std::string name;
-  std::vector<PlannedCell> cells;
+  std::vector<kinds::PlannedSet> cells;
   int rounds = 12;               // at least 6, from which on there are intervals
   double sample_seconds = 0.01;  // a sample repeats the cell for about this long
   double time_limit = 20;  // seconds; an algorithm that needs more for a cell is not timed in it

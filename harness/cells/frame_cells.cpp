@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "algorithms/registry.h"
-#include "harness/cells/choices.h"
+#include "harness/kinds/set_keys.h"
 #include "harness/cells/kinds.h"
 #include "harness/grade/pair_check.h"
 #include "harness/measure/phases/block_input.h"
@@ -106,12 +106,12 @@ class LoopPlayer {
   }
 
   // Plays the loop once more, and holds every answer against the true pairs.
-  Grade grade() {
-    Grade grade;
+  kinds::TimedGrade grade() {
+    kinds::TimedGrade grade;
     grade.hits = grade.true_hits = 0;
     play([&](std::size_t i, Status status) {
       if (status != Status::ok) {
-        ++grade.unknown;
+        ++grade.gave_up;
         return;
       }
       const Pairs &now = loop_->truth_of(i), &before = loop_->truth_before(i);
@@ -152,14 +152,14 @@ class LoopPlayer {
     return some;
   }
 
-  void add_faults(std::size_t i, const PairSink& sink, const Pairs& truth, Grade& grade) const {
+  void add_faults(std::size_t i, const PairSink& sink, const Pairs& truth, kinds::TimedGrade& grade) const {
     Pairs found = sink.gather();
     grade.hits += std::ssize(found);
     grade.true_hits += std::ssize(truth);
     const grade::PairFaults faults = grade::check_pairs(found, truth, loop_->boxes_before(i));
     grade.missed += faults.missing;
     grade.false_hits += faults.extra + faults.stale;
-    grade.other += faults.duplicate;
+    grade.inexact += faults.duplicate;
   }
 
   const BroadPhaseEntry* entry_;
@@ -171,10 +171,11 @@ class LoopPlayer {
   PairSink pairs_, ended_;
 };
 
-Cell make_frame_cell(const std::shared_ptr<const FrameLoop>& loop, Question question, int threads,
+kinds::TimedSet make_frame_cell(const std::shared_ptr<const FrameLoop>& loop, Question question, int threads,
                      const std::vector<const BroadPhaseEntry*>& entries) {
-  Cell cell;
+  kinds::TimedSet cell;
   cell.queries = cell.graded = static_cast<std::int64_t>(loop->frames.size());
+  cell.truth = "all-pairs";
   for (const BroadPhaseEntry* entry : entries) {
     const auto player = std::make_shared<LoopPlayer>(*entry, loop, question, threads);
     cell.contestants.push_back({.name = entry->info.name,
@@ -257,13 +258,13 @@ std::vector<LoopSource> read_sources(files::TomlTable& table, const std::filesys
 
 }  // namespace
 
-std::vector<PlannedCell> frame_cells(files::TomlTable& table, const std::filesystem::path& home) {
+std::vector<kinds::PlannedSet> frame_cells(files::TomlTable& table, const std::filesystem::path& home) {
   const std::vector<LoopSource> sources = read_sources(table, home);
   const std::vector<std::int64_t> threads = table.integers("threads", 1, 1024, 1);
   const std::vector<std::size_t> questions = choices(table, "asks", question_names);
   const auto entries = selected(table, broad_phases(), "broad phase");
   const auto last = std::make_shared<LastLoop>();
-  std::vector<PlannedCell> cells;
+  std::vector<kinds::PlannedSet> cells;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     for (const std::size_t question : questions) {
       for (const std::int64_t width : threads) {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "harness/base/error.h"
-#include "harness/cells/choices.h"
+#include "harness/kinds/set_keys.h"
 #include "harness/cells/kinds.h"
 #include "harness/cells/motion/motion_plan.h"
 
@@ -43,7 +43,7 @@ std::vector<int> whole_numbers(files::TomlTable& table, std::string_view key, st
 
 }  // namespace
 
-std::vector<PlannedCell> motion_cells(files::TomlTable& table, const std::filesystem::path& home) {
+std::vector<kinds::PlannedSet> motion_cells(files::TomlTable& table, const std::filesystem::path& home) {
   MotionRequest request;
   for (const std::string& scene : table.texts("scenes", {})) request.scenes.push_back(home / scene);
   if (request.scenes.empty()) table.fail("scenes", "missing; expected files of scenes");

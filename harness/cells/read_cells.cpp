@@ -16,16 +16,37 @@
 #include "harness/cells/kinds.h"
 #include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
+#include "harness/kinds/kind.h"
+#include "harness/kinds/mesh/sliding_sets.h"
 
 namespace touchstone::cells {
 namespace {
 
-using MakeCells = std::vector<PlannedCell> (*)(files::TomlTable&, const std::filesystem::path&);
-constexpr std::array<std::string_view, 8> kinds = {"rays",    "points", "casts",   "ccd",
-                                                   "concave", "motion", "sliding", "frames"};
-constexpr std::array<MakeCells, 8> makers = {ray_cells,     point_cells,   cast_cells,
-                                             ccd_cells,     concave_cells, motion_cells,
-                                             sliding_cells, frame_cells};
+using MakeSets = std::vector<kinds::PlannedSet> (*)(files::TomlTable&,
+                                                    const std::filesystem::path&);
+// Timed sets that are no kind of query by themselves.
+constexpr std::array<std::pair<std::string_view, MakeSets>, 3> other_sets = {
+    {{"sliding",
+      [](files::TomlTable& table, const std::filesystem::path&) {
+        return kinds::sliding_sets(table);
+      }},
+     {"motion", motion_cells},
+     {"frames", frame_cells}}};
+
+// Reads the key `kind`, and with it the sets.
+std::vector<kinds::PlannedSet> read_sets(files::TomlTable& table,
+                                         const std::filesystem::path& home) {
+  const std::string name = table.text("kind");
+  for (const auto& [other, make] : other_sets) {
+    if (name == other) return make(table, home);
+  }
+  if (name == "casts") return kinds::cast_kind().timed_sets(table, home);  // the word before
+  if (const kinds::Kind* kind = kinds::find_kind(name)) return kind->timed_sets(table, home);
+  std::string known;
+  for (const kinds::Kind* kind : kinds::kinds()) known += std::string(kind->name()) + ", ";
+  table.fail("kind", fmt::format("found '{}'; expected one of {}sliding, motion, frames", name,
+                                 known));
+}
 
 std::string fingerprint(const std::string& text) {
   std::uint64_t hash = 0;
@@ -34,9 +55,9 @@ std::string fingerprint(const std::string& text) {
 }
 
 // Rows of a cell are found by its name.
-void refuse_equal_names(files::TomlTable& table, const std::vector<PlannedCell>& cells) {
+void refuse_equal_names(files::TomlTable& table, const std::vector<kinds::PlannedSet>& cells) {
   std::set<std::pair<std::string, std::string>> names;
-  for (const PlannedCell& cell : cells) {
+  for (const kinds::PlannedSet& cell : cells) {
     if (names.emplace(cell.group, cell.name).second) continue;
     table.fail("kind",
                fmt::format("two cells are called '{}, {}'; expected lists without repetition, "
@@ -60,7 +81,7 @@ CellRequest read_cells(const std::filesystem::path& file) {
   request.time_limit = table.number("time_limit", files::positive, request.time_limit);
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   request.seed = static_cast<std::uint64_t>(table.integer("order_seed", 0, most, 1));
-  request.cells = makers[table.choice("kind", kinds)](table, file.parent_path());
+  request.cells = read_sets(table, file.parent_path());
   refuse_equal_names(table, request.cells);
   table.finish();
   top.finish();

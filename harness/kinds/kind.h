@@ -2,14 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "harness/files/toml_table.h"
 #include "harness/kinds/batch.h"
 #include "harness/kinds/family.h"
+#include "harness/kinds/timed_set.h"
 
 namespace touchstone::kinds {
 
@@ -48,6 +51,10 @@ class Kind {
   // All families in a stable order, first those that are no values of axes.
   std::span<const Family> families() const;
   virtual std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const = 0;
+  // The sets that campaigns time, by the keys of a table; files are relative to `home`. Throws InputError with
+  // file, line and what was expected.
+  virtual std::vector<PlannedSet> timed_sets(files::TomlTable& table,
+                                             const std::filesystem::path& home) const = 0;
 
  private:
   // Lists the families; kind and number are filled in.

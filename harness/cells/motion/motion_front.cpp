@@ -41,7 +41,7 @@ MotionPointRow point_of(const MotionMethod& method, const stats::CellTimeRow& ti
   row.hits = grade.hits;
   row.missed = grade.missed;
   row.false_hits = grade.false_hits;
-  row.unknown = grade.unknown;
+  row.unknown = grade.gave_up;
   if (grade.true_hits >= 0) {
     row.error = static_cast<double>(grade.missed) /
                 static_cast<double>(std::max<std::int64_t>(grade.true_hits, 1));

@@ -41,8 +41,8 @@ std::size_t count_outside(std::span<const IndexPair> from, std::span<const Index
   }));
 }
 
-Grade grade_steps(std::span<const StepAnswer> truth, std::span<const StepAnswer> found) {
-  Grade grade;
+kinds::TimedGrade grade_steps(std::span<const StepAnswer> truth, std::span<const StepAnswer> found) {
+  kinds::TimedGrade grade;
   grade.hits = grade.true_hits = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const StepAnswer &right = truth[i], &answer = found[i];
@@ -50,7 +50,7 @@ Grade grade_steps(std::span<const StepAnswer> truth, std::span<const StepAnswer>
         static_cast<std::int64_t>(count_outside(right.hits, answer.hits, answer.unknown));
     grade.false_hits +=
         static_cast<std::int64_t>(count_outside(answer.hits, right.hits, right.unknown));
-    grade.unknown += std::ssize(answer.unknown);
+    grade.gave_up += std::ssize(answer.unknown);
     grade.hits += std::ssize(answer.hits);
     grade.true_hits += std::ssize(right.hits);
     grade.hit_hash += base::mix(base::pair_hash(answer.hits) + i);
@@ -98,16 +98,16 @@ class MethodPlayer {
 
   // Judges the answers of the last play, and plays once more alone: as many steps as differ then are
   // wrong in another way.
-  Grade grade(int threads) {
+  kinds::TimedGrade grade(int threads) {
     const std::vector<StepAnswer> found = answers();
-    Grade grade = grade_steps(scene_->truth, found);
+    kinds::TimedGrade grade = grade_steps(scene_->truth, found);
     if (threads == 1) return grade;
     prepare(1);
     play();
     const std::vector<StepAnswer> alone = answers();
     for (std::size_t i = 0; i < found.size(); ++i) {
       const bool is_equal = found[i].hits == alone[i].hits && found[i].unknown == alone[i].unknown;
-      grade.other += is_equal ? 0 : 1;
+      grade.inexact += is_equal ? 0 : 1;
     }
     return grade;
   }
@@ -155,10 +155,10 @@ bool takes_all(const MotionScene& scene, const MotionMethod& method) {
   return true;
 }
 
-Cell make_motion_cell(const std::shared_ptr<MotionScene>& scene, const MotionRequest& request,
+kinds::TimedSet make_motion_cell(const std::shared_ptr<MotionScene>& scene, const MotionRequest& request,
                       int threads, int most_threads) {
   scene->find_truth(most_threads);
-  Cell cell;
+  kinds::TimedSet cell;
   cell.queries = static_cast<std::int64_t>(scene->input.bodies() * scene->input.steps.size());
   for (const StepAnswer& answer : scene->truth)
     cell.graded += static_cast<std::int64_t>(answer.pairs - answer.unknown.size());
@@ -169,7 +169,7 @@ Cell make_motion_cell(const std::shared_ptr<MotionScene>& scene, const MotionReq
     }
     const auto player =
         std::make_shared<MethodPlayer>(scene, method, request.tolerance, request.parts);
-    Contestant contestant;
+    kinds::TimedContestant contestant;
     contestant.name = method.name;
     contestant.origin = method.origin();
     contestant.approximate =
@@ -248,8 +248,8 @@ std::vector<MotionMethod> methods_of(const MotionRequest& request) {
   return methods;
 }
 
-std::vector<PlannedCell> plan_motion(const MotionRequest& request) {
-  std::vector<PlannedCell> cells;
+std::vector<kinds::PlannedSet> plan_motion(const MotionRequest& request) {
+  std::vector<kinds::PlannedSet> cells;
   const int most_threads = *std::ranges::max_element(request.threads);
   for (const std::filesystem::path& file : request.scenes) {
     for (const scene::SceneOverrides& overrides : request.overrides) {

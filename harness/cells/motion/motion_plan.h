@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/cells/cell.h"
+#include "harness/kinds/timed_set.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone::cells {
@@ -50,7 +50,7 @@ std::vector<MotionMethod> methods_of(const MotionRequest& request);
 // A cell for each number of threads, in a group for each scene with each of the overrides. A query is a
 // body in a step; what is graded are pairs. Throws InputError if a scene cannot be read or does not
 // move.
-std::vector<PlannedCell> plan_motion(const MotionRequest& request);
+std::vector<kinds::PlannedSet> plan_motion(const MotionRequest& request);
 
 // Reads names joined by '+'. Throws InputError.
 CastChain cast_chain(const std::string& names);

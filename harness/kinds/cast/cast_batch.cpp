@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "harness/kinds/cast/cast_families.h"
+#include "harness/kinds/cast/cast_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/cast/cast_forms.h"
 #include "harness/kinds/cast/cast_grade.h"
@@ -232,6 +233,11 @@ class CastKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<CastBatch>(family.number, range);
+  }
+
+  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
+                                     const std::filesystem::path&) const override {
+    return cast_sets(table);
   }
 
  private:

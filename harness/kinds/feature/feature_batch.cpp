@@ -5,6 +5,7 @@
 
 #include "algorithms/oracle/ccd/first_within.h"
 #include "algorithms/oracle/oracle.h"
+#include "harness/kinds/feature/feature_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/feature/feature_forms.h"
 #include "harness/kinds/feature/feature_grade.h"
@@ -132,9 +133,7 @@ class FeatureBatch final : public Batch {
     return *separated_[i];
   }
   oracle::ccd::Impact impact(std::size_t i, const Lengths& lengths) const {
-    const oracle::ccd::MovingFeatures features{first_count(), queries_[i].start, queries_[i].end};
-    return lengths.separation > 0 ? oracle::ccd::impact_within(features, lengths.separation)
-                                  : oracle::ccd::impact_of(features);
+    return impact_of({first_count(), queries_[i].start, queries_[i].end}, lengths.separation);
   }
   const oracle::ccd::Impact& truth(const Contestant& contestant, std::size_t i) {
     std::vector<oracle::ccd::Impact>& truths = truths_[contestant.task];
@@ -264,6 +263,11 @@ class FeatureKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<FeatureBatch>(family.number, range);
+  }
+
+  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
+                                     const std::filesystem::path& home) const override {
+    return feature_sets(table, home);
   }
 
  private:

@@ -12,6 +12,13 @@ namespace touchstone::kinds {
 // A hit may be later than the contact by so much of the step.
 inline constexpr double feature_late = 1e-6;
 
+// The first time at which the features come within the separation (metres, >= 0), by the oracle.
+inline oracle::ccd::Impact impact_of(const oracle::ccd::MovingFeatures& features,
+                                     double separation) {
+  return separation > 0 ? oracle::ccd::impact_within(features, separation)
+                        : oracle::ccd::impact_of(features);
+}
+
 // A query, and how it was asked.
 struct FeatureAsked {
   const CcdQuery* query = nullptr;  // as it was drawn

@@ -8,6 +8,7 @@
 #include "algorithms/core/nearest_float.h"
 #include "harness/base/hash.h"
 #include "harness/kinds/exact_forms.h"
+#include "harness/kinds/mesh/mesh_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh/mesh_families.h"
 #include "harness/kinds/mesh/mesh_grade.h"
@@ -241,6 +242,11 @@ class MeshKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<MeshBatch>(family.number, range);
+  }
+
+  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
+                                     const std::filesystem::path& home) const override {
+    return mesh_sets(table, home);
   }
 
  private:

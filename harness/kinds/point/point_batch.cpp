@@ -9,6 +9,7 @@
 
 #include "harness/families/tried_points.h"
 #include "harness/files/text_file.h"
+#include "harness/kinds/point/point_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/point/point_grade.h"
@@ -151,6 +152,11 @@ class PointKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<PointBatch>(family.number, range);
+  }
+
+  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
+                                     const std::filesystem::path& home) const override {
+    return point_sets(table, home);
   }
 
  private:

@@ -10,6 +10,7 @@
 
 #include "algorithms/core/nearest_float.h"
 #include "harness/families/aimed_rays.h"
+#include "harness/kinds/ray/ray_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/ray/ray_file.h"
@@ -154,6 +155,11 @@ class RayKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<RayBatch>(family.number, range);
+  }
+
+  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
+                                     const std::filesystem::path& home) const override {
+    return ray_sets(table, home);
   }
 
  private:

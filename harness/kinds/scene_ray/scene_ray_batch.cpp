@@ -317,6 +317,11 @@ class SceneRayKind final : public Kind {
     return std::make_unique<SceneRayBatch>(family.number, range);
   }
 
+  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
+                                     const std::filesystem::path&) const override {
+    table.fail("kind", "rays at scenes have no timed sets yet");
+  }
+
  private:
   std::vector<Family> list_families() const override {
     std::vector<Family> list;

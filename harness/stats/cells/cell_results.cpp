@@ -37,8 +37,8 @@ Contestant contestant_of(const GradeRow& row) {
   contestant.origin = named<record::RowOrigin>(row.origin);
   Check& check = contestant.checks.emplace_back();
   check.phase = record::Phase::narrow;
-  check.grade = fmt::format("{} missed, {} false hits, {} otherwise wrong, {} unknown", row.missed,
-                            row.false_hits, row.other, row.unknown);
+  check.grade = fmt::format("{} missed, {} false, {} inexact, {} gave up", row.missed,
+                            row.false_hits, row.inexact, row.gave_up);
   if (row.hits >= 0) check.grade += fmt::format(", {} hits ({})", row.hits, row.hit_hash);
   check.status = named<record::RowStatus>(row.status).value_or(record::RowStatus::wrong);
   if (check.status != record::RowStatus::ok) contestant.failure = check.status;

@@ -12,13 +12,16 @@ namespace touchstone::stats {
 // grades.csv: one algorithm's answers to one cell.
 struct GradeRow {
   std::string group, cell, algorithm, origin;
-  bool approximate = false, tolerant = false;
-  std::int64_t queries = 0, graded = 0, missed = 0, false_hits = 0, other = 0, unknown = 0;
+  bool approximate = false;
+  std::int64_t queries = 0;
+  std::string truth;
+  std::int64_t graded = 0, near = 0, missed = 0, false_hits = 0, inexact = 0, bound = 0;
+  std::int64_t gave_up = 0, unresolved = 0;
   double error = Outcome::none;
   std::int64_t hits = -1, true_hits = -1;
   std::string hit_hash, status;
 
-  bool is_right() const { return missed == 0 && (tolerant || false_hits == 0) && other == 0; }
+  bool is_right() const { return missed == 0 && false_hits == 0 && inexact == 0; }
 };
 template <record::row_of<GradeRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
@@ -27,14 +30,21 @@ void columns(Row& row, Visit visit) {
   visit("algorithm", row.algorithm, "Name of the algorithm, with the scalar where it has several.");
   visit("origin", row.origin, "ours, peer or oracle.");
   visit("approximate", row.approximate, "1: its errors are known, and are no fault.");
-  visit("tolerant", row.tolerant,
-        "1: it may say yes within a tolerance, so false hits are no fault.");
   visit("queries", row.queries, "Queries of the cell.");
-  visit("graded", row.graded, "Queries that were held against exact answers, the first ones.");
-  visit("missed", row.missed, "Queries with a no where the exact answer is yes.");
-  visit("false_hits", row.false_hits, "Queries with a yes where the exact answer is no.");
-  visit("other", row.other, "Queries with another number, triangle or time than the exact one.");
-  visit("unknown", row.unknown, "Queries that it gave up, and said so.");
+  visit("truth", row.truth,
+        "Who says what is right: `oracle`, exact arithmetic; `proven-fast`, a method of ours whose "
+        "verdicts are proven; `all-pairs`, every pair of boxes.");
+  visit("graded", row.graded, "Queries that were held against the truth, the first ones.");
+  visit("near", row.near,
+        "Contacts that are none, of bodies that come within the algorithm's tolerance; no fault.");
+  visit("missed", row.missed, "Contacts that it does not report.");
+  visit("false_hits", row.false_hits,
+        "Contacts that it reports where there is none, not within its tolerance.");
+  visit("inexact", row.inexact,
+        "Answers whose verdict is right, and a number, a pair, a triangle or a bound is not.");
+  visit("bound", row.bound, "Of these, upper bounds of an algorithm that gives them by design.");
+  visit("gave_up", row.gave_up, "Answers that its status gives up.");
+  visit("unresolved", row.unresolved, "Queries whose exact answer is not known.");
   visit("error", row.error, "Greatest error of a number; empty where there is none.");
   visit("hits", row.hits, "Of motion: pairs of bodies that it found to touch; else -1.");
   visit("true_hits", row.true_hits, "Of motion: pairs of bodies that touch; else -1.");

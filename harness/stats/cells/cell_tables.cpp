@@ -31,7 +31,7 @@ std::string table_of(const CellTimes& cell) {
   const bool counts_hits = std::ranges::any_of(
       cell.rows, [](const CellTimeRow& row) { return row.grade.true_hits >= 0; });
   base::Table table({"algorithm", "ns a query", "95 % interval", "missed", "false hits",
-                     "otherwise wrong", "unknown", counts_hits ? "hits" : "greatest error"});
+                     "inexact", "gave up", counts_hits ? "hits" : "greatest error"});
   std::vector<const CellTimeRow*> rows;
   for (const CellTimeRow& row : cell.rows) rows.push_back(&row);
   std::ranges::stable_sort(rows, [](const CellTimeRow* a, const CellTimeRow* b) {
@@ -48,7 +48,7 @@ std::string table_of(const CellTimes& cell) {
                              (grade.approximate ? " (approximate)" : "") +
                              (grade.status == "ok" ? "" : " (" + grade.status + ")");
     table.add({name, time_cell(row->seconds), interval, count(grade.missed),
-               count(grade.false_hits), count(grade.other), count(grade.unknown),
+               count(grade.false_hits), count(grade.inexact), count(grade.gave_up),
                counts_hits               ? (grade.hits < 0 ? "" : count(grade.hits))
                : std::isnan(grade.error) ? ""
                                          : fmt::format("{:.1e}", grade.error)});

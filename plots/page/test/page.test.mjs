@@ -117,7 +117,7 @@ test("hovering tells, and clicking shows the samples", () =>
 
 test("cells have a chart, crosses beside who was wrong, and samples", async () => {
   const header = "group,cell,algorithm,origin,";
-  const graded = "missed,false_hits,other,status";
+  const graded = "missed,false_hits,inexact,status";
   const cells = ["box", "hull"].flatMap((cell) => [`hit,${cell},mine,ours,`, `hit,${cell},theirs,peer,`]);
   const results = folder_of("cells", {
     "grades.csv": `${header}${graded}\n${cells.map((cell) => `${cell}0,0,0,ok\n`).join("")}`,

@@ -133,11 +133,11 @@ TEST(Cells, OfMotion) {
     EXPECT_EQ(row.status, "ok");
     EXPECT_GT(row.true_hits, 0) << row.group;
     EXPECT_LT(row.true_hits, row.graded) << row.group;
-    EXPECT_EQ(row.other, 0);
+    EXPECT_EQ(row.inexact, 0);
     const auto [known, is_new] = hash_of.emplace(row.group + row.algorithm, row.hit_hash);
     EXPECT_EQ(known->second, row.hit_hash) << row.algorithm;
     if (row.algorithm.find("substep") == std::string::npos) {
-      EXPECT_EQ(row.missed + row.false_hits + row.unknown, 0) << row.group << row.algorithm;
+      EXPECT_EQ(row.missed + row.false_hits + row.gave_up, 0) << row.group << row.algorithm;
       EXPECT_EQ(row.hits, row.true_hits);
     } else {
       missed += row.missed;

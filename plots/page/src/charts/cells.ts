@@ -21,7 +21,7 @@ interface Mark {
   wrong: string; // what was wrong, in words; empty if nothing was
 }
 
-const faults = { missed: "missed", false_hits: "false hits", other: "otherwise wrong" };
+const faults = { missed: "missed", false_hits: "false hits", inexact: "inexact" };
 
 function mark_of(row: Row): Mark {
   const wrong = Object.entries(faults)

@@ -12,12 +12,13 @@
 #include "harness/base/hash.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/cells/choices.h"
-#include "harness/cells/concave_setup.h"
-#include "harness/cells/kinds.h"
-#include "harness/cells/mesh_inputs.h"
+#include "harness/kinds/mesh/mesh_grade.h"
+#include "harness/kinds/mesh/mesh_sets.h"
+#include "harness/kinds/mesh/mesh_setup.h"
+#include "harness/kinds/mesh_inputs.h"
+#include "harness/kinds/set_keys.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 namespace {
 
 enum class Place : std::uint8_t { gap_10, gap_1, touching, deep };
@@ -27,9 +28,6 @@ constexpr std::array<std::string_view, 3> concave_task_names = {"intersect", "di
 // The oracle tests all pairs of triangles of meshes up to this size. The answers of larger ones are those
 // of `part-pairs`, which are exact too, by signs that are proven.
 constexpr std::size_t most_exact_triangles = 3000;
-// A distance that is off by more than this part of the mesh's size is wrong.
-constexpr double greatest_distance_error = 1e-6;
-
 // The greatest half extent of a convex body, as a part of the mesh's.
 constexpr double convex_size = 0.05;
 
@@ -39,17 +37,15 @@ struct ConcaveInput {
   double size = 0;  // half of the second body's greatest extent, metres
   std::uint32_t second() const { return static_cast<std::uint32_t>(bodies.size() - 1); }
   std::vector<std::pair<PlacedConcave, PlacedConcave>> asked;
-  std::vector<Outcome> exact;
-  std::vector<std::uint64_t> exact_pairs;
+  std::vector<MeshAnswer> exact;
 };
 
-// The answers of a phase to all pairs, and fingerprints of the lists of pairs.
+// The answers of a phase to all pairs.
 struct Answers {
   std::vector<Outcome> outcomes;
-  std::vector<std::uint64_t> pairs;
   std::vector<std::vector<IndexPair>> lists;  // kept, so that no call allocates
 
-  explicit Answers(std::size_t count) : outcomes(count), pairs(count), lists(count) {}
+  explicit Answers(std::size_t count) : outcomes(count), lists(count) {}
   void ask(ConcavePhase& phase, ConcaveTask task, const ConcaveInput& input) {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       outcomes[i] = {};
@@ -57,8 +53,10 @@ struct Answers {
       phase.solve(task, input.asked[i].first, input.asked[i].second, outcomes[i], lists[i]);
     }
   }
-  void hash() {
-    for (std::size_t i = 0; i < lists.size(); ++i) pairs[i] = base::pair_hash(lists[i]);
+  MeshAnswer of(std::size_t i) const {
+    const Outcome& outcome = outcomes[i];
+    return {outcome.status, outcome.answer,   outcome.distance,         outcome.lower,
+            outcome.upper,  lists[i].size(), base::pair_hash(lists[i])};
   }
 };
 
@@ -114,37 +112,30 @@ void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Ran
   input.asked.emplace_back(a, b);
 }
 
-Grade grade(const ConcaveInput& input, ConcaveTask task, Answers& answers) {
-  answers.hash();
-  Grade grade;
+TimedGrade grade(const ConcaveInput& input, ConcaveTask task, Precision scalar,
+                 const Answers& answers) {
+  TimedGrade sum;
   for (std::size_t i = 0; i < input.exact.size(); ++i) {
-    const Outcome &found = answers.outcomes[i], &right = input.exact[i];
-    const bool sure = found.status == Status::ok || found.status == Status::not_reported;
-    if (!sure || found.answer == Answer::unknown) {
-      ++grade.unknown;
-      continue;
-    }
-    const bool hit = found.answer != Answer::separated, is_hit = right.answer != Answer::separated;
-    if (hit != is_hit) {
-      ++(is_hit ? grade.missed : grade.false_hits);
-    } else if (task == ConcaveTask::contacts) {
-      grade.other += answers.pairs[i] != input.exact_pairs[i];
-    } else if (task == ConcaveTask::distance && !hit) {
-      const double error = std::abs(found.distance - right.distance) / input.size;
-      if (!(error <= grade.error)) grade.error = error;
-      grade.other += !(error <= greatest_distance_error);
+    const auto& [a, b] = input.asked[i];
+    const MeshAnswer found = answers.of(i), &right = input.exact[i];
+    const double reach =
+        mesh_reach(input.bodies[a.body], a.pose, input.bodies[b.body], b.pose);
+    sum.add(grade_mesh(task, found, right, &right, scalar, reach), static_cast<std::int64_t>(i));
+    if (is_meant(found.status) && right.answer == Answer::separated &&
+        task == ConcaveTask::distance) {
+      sum.note_error(std::abs(found.distance - right.distance) / input.size);
     }
   }
-  return grade;
+  return sum;
 }
 
-// The bodies of a cell. Without a name of a convex shape the mesh meets itself.
+// The bodies of a set. Without a name of a convex shape the mesh meets itself.
 struct Bodies {
   std::shared_ptr<const TriangleMesh> mesh;
   std::string_view convex;
 };
 
-Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std::size_t count,
+TimedSet make_set(const Bodies& bodies, Place place, ConcaveTask task, std::size_t count,
                        std::uint64_t seed, const std::vector<const ConcaveEntry*>& entries) {
   const auto input = std::make_shared<ConcaveInput>();
   const auto& mesh = bodies.mesh;
@@ -163,16 +154,18 @@ Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std:
   for (std::size_t i = 0; i < count; ++i) place_pair(*input, place, *placing, random);
 
   const bool brute = mesh->triangles.size() <= most_exact_triangles;
-  const std::unique_ptr<ConcavePhase> oracle =
+  const std::unique_ptr<ConcavePhase> asked =
       make_phase(*find_concave_phase(brute ? "exact" : "part-pairs"), Precision::float64, false);
-  oracle->bind(input->bodies);
+  asked->bind(input->bodies);
   Answers truth(count);
-  truth.ask(*oracle, task, *input);
-  truth.hash();
-  input->exact = truth.outcomes;
-  input->exact_pairs = truth.pairs;
-  Cell cell;
+  truth.ask(*asked, task, *input);
+  for (std::size_t i = 0; i < count; ++i) {
+    MeshAnswer& exact = input->exact.emplace_back(truth.of(i));
+    if (std::isnan(exact.lower)) exact.lower = exact.upper = exact.distance;
+  }
+  TimedSet cell;
   cell.queries = cell.graded = static_cast<std::int64_t>(count);
+  if (!brute) cell.truth = "proven-fast";
   for (const ConcaveEntry* entry : entries) {
     if (entry->supports != nullptr && !entry->supports(input->bodies[0], input->bodies.back()))
       continue;
@@ -181,13 +174,13 @@ Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std:
       const std::shared_ptr<ConcavePhase> phase = make_phase(*entry, scalar, false);
       phase->bind(input->bodies);
       const auto answers = std::make_shared<Answers>(count);
-      Contestant made;
+      TimedContestant made;
       made.name = entry->info.name;
       if (entry->scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
       made.origin = entry->info.origin;
       made.approximate = entry->approximate || !entry->info.known_defect.empty();
       made.answer = [=] { answers->ask(*phase, task, *input); };
-      made.grade = [=] { return grade(*input, task, *answers); };
+      made.grade = [=] { return grade(*input, task, scalar, *answers); };
       cell.contestants.push_back(std::move(made));
     }
   }
@@ -196,18 +189,18 @@ Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std:
 
 }  // namespace
 
-std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::filesystem::path& home) {
+std::vector<PlannedSet> mesh_sets(files::TomlTable& table, const std::filesystem::path& home) {
   const auto count = static_cast<std::size_t>(table.integer("queries", 6, 100'000, 32));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> places = choices(table, "places", place_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", concave_task_names);
   const auto entries = selected(table, concave_phases(), "concave phase");
-  std::vector<PlannedCell> cells;
+  std::vector<PlannedSet> cells;
   const auto add = [&](const std::string& group, const Bodies& bodies, std::size_t task,
                        std::size_t place) {
     cells.push_back(
         {group, fmt::format("{}, {}", concave_task_names[task], place_names[place]), [=] {
-           return make_concave_cell(bodies, static_cast<Place>(place),
+           return make_set(bodies, static_cast<Place>(place),
                                     static_cast<ConcaveTask>(task), count, seed, entries);
          }});
   };
@@ -238,4 +231,4 @@ std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::files
   return cells;
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

@@ -11,11 +11,11 @@
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
 #include "harness/base/random.h"
-#include "harness/cells/choices.h"
-#include "harness/cells/concave_setup.h"
-#include "harness/cells/kinds.h"
+#include "harness/kinds/mesh/mesh_setup.h"
+#include "harness/kinds/mesh/sliding_sets.h"
+#include "harness/kinds/set_keys.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 namespace {
 
 constexpr std::array<std::string_view, 2> ground_names = {"fine", "coarse"};
@@ -84,32 +84,35 @@ SlidingInput make_input(std::size_t squares, std::string_view body, std::size_t 
   return input;
 }
 
-Grade grade(const SlidingInput& input, const SlidingAnswers& answers) {
-  Grade grade;
-  for (std::size_t i = 0; i < input.asked.size(); ++i) {
-    const Status status = answers.outcomes[i].status;
-    if (status != Status::ok && status != Status::not_reported) {
-      ++grade.unknown;
-      continue;
-    }
-    bool leans = false, is_right = false;
-    double deepest = 0;
-    for (const PartContact& contact : answers.contacts[i]) {
-      if (!contact.normal.allFinite()) continue;
-      const double lean =
-          std::atan2(input.up[i].cross(contact.normal).norm(), input.up[i].dot(contact.normal));
-      if (!(lean <= grade.error)) grade.error = lean;
-      (lean > greatest_lean ? leans : is_right) = true;
-      if (lean <= greatest_lean) deepest = std::max(deepest, contact.depth);
-    }
-    grade.missed += !is_right;
-    grade.false_hits += leans;
-    grade.other += is_right && std::abs(deepest - body_depth) > greatest_depth_error;
+// A contact that pushes straight up is there; one that leans is a false one, and without any the contact is missed.
+Graded grade_slide(const SlidingInput& input, const SlidingAnswers& answers, std::size_t i,
+                   TimedGrade& sum) {
+  if (!is_meant(answers.outcomes[i].status)) return {Grade::gave_up, true};
+  bool leans = false, pushes_up = false;
+  double deepest = 0;
+  for (const PartContact& contact : answers.contacts[i]) {
+    if (!contact.normal.allFinite()) continue;
+    const double lean =
+        std::atan2(input.up[i].cross(contact.normal).norm(), input.up[i].dot(contact.normal));
+    sum.note_error(lean);
+    (lean > greatest_lean ? leans : pushes_up) = true;
+    if (lean <= greatest_lean) deepest = std::max(deepest, contact.depth);
   }
-  return grade;
+  if (!pushes_up) return {Grade::missed, true};
+  if (leans) return {Grade::false_hit, true};
+  const bool is_off = std::abs(deepest - body_depth) > greatest_depth_error;
+  return {is_off ? Grade::inexact : Grade::right, true};
 }
 
-Contestant contestant(const std::shared_ptr<const SlidingInput>& input, const ConcaveEntry& entry,
+TimedGrade grade(const SlidingInput& input, const SlidingAnswers& answers) {
+  TimedGrade sum;
+  for (std::size_t i = 0; i < input.asked.size(); ++i) {
+    sum.add(grade_slide(input, answers, i, sum), static_cast<std::int64_t>(i));
+  }
+  return sum;
+}
+
+TimedContestant contestant(const std::shared_ptr<const SlidingInput>& input, const ConcaveEntry& entry,
                       Precision scalar, bool welds) {
   const std::shared_ptr<ConcavePhase> phase = make_phase(entry, scalar, welds);
   phase->bind(input->bodies);
@@ -118,7 +121,7 @@ Contestant contestant(const std::shared_ptr<const SlidingInput>& input, const Co
   answers->outcomes.resize(count);
   answers->pairs.resize(count);
   answers->contacts.resize(count);
-  Contestant made;
+  TimedContestant made;
   made.name = entry.info.name;
   if (entry.scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
   if (welds) made.name += " welded";
@@ -137,10 +140,10 @@ Contestant contestant(const std::shared_ptr<const SlidingInput>& input, const Co
   return made;
 }
 
-Cell make_sliding_cell(std::size_t squares, std::string_view body, std::size_t count,
+TimedSet make_set(std::size_t squares, std::string_view body, std::size_t count,
                        std::uint64_t seed, const std::vector<const ConcaveEntry*>& entries) {
   const auto input = std::make_shared<const SlidingInput>(make_input(squares, body, count, seed));
-  Cell cell;
+  TimedSet cell;
   cell.queries = cell.graded = static_cast<std::int64_t>(count);
   for (const ConcaveEntry* entry : entries) {
     if (!entry->measures) continue;
@@ -157,23 +160,23 @@ Cell make_sliding_cell(std::size_t squares, std::string_view body, std::size_t c
 
 }  // namespace
 
-std::vector<PlannedCell> sliding_cells(files::TomlTable& table, const std::filesystem::path&) {
+std::vector<PlannedSet> sliding_sets(files::TomlTable& table) {
   const auto count = static_cast<std::size_t>(table.integer("queries", 6, 100'000, 128));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> grounds = choices(table, "grounds", ground_names);
   const std::vector<std::size_t> bodies = choices(table, "bodies", convex_names);
   const auto entries = selected(table, concave_phases(), "concave phase");
-  std::vector<PlannedCell> cells;
+  std::vector<PlannedSet> cells;
   for (const std::size_t ground : grounds) {
     const std::size_t squares = ground_squares[ground];
     for (const std::size_t body : bodies) {
       cells.push_back(
           {fmt::format("{} ground, {} triangles", ground_names[ground], 2 * squares * squares),
            std::string(convex_names[body]),
-           [=] { return make_sliding_cell(squares, convex_names[body], count, seed, entries); }});
+           [=] { return make_set(squares, convex_names[body], count, seed, entries); }});
     }
   }
   return cells;
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

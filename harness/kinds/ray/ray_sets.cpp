@@ -12,19 +12,18 @@
 #include "algorithms/registry.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/cells/choices.h"
-#include "harness/cells/kinds.h"
-#include "harness/cells/mesh_inputs.h"
+#include "harness/kinds/mesh_inputs.h"
+#include "harness/kinds/ray/ray_grade.h"
+#include "harness/kinds/ray/ray_sets.h"
+#include "harness/kinds/set_keys.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 namespace {
 
 enum class Aim : std::uint8_t { incoherent, coherent, vertices, edges };
 constexpr std::array<std::string_view, 4> aim_names = {"incoherent", "coherent", "vertices",
                                                        "edges"};
 constexpr std::array<std::string_view, 2> ray_task_names = {"closest", "any"};
-// A distance that is off by more than this part of itself is wrong, whatever the scalar.
-constexpr double greatest_ray_error = 1e-4;
 
 // Numbers of rays are floats, so that both scalars answer the same question.
 std::vector<Ray> make_rays(const MeshInput& input, Aim aim, std::size_t count, std::uint64_t seed) {
@@ -82,42 +81,33 @@ std::vector<Ray> make_rays(const MeshInput& input, Aim aim, std::size_t count, s
 struct RayInput {
   std::vector<Ray> rays;
   std::vector<RayHit> exact;
+  double size = 1;  // metres, half of the mesh's box
 };
 
-Grade grade(const RayInput& input, RayTask task, std::span<const RayHit> hits,
-            bool exact_verdicts) {
-  Grade grade;
+TimedGrade grade(const RayInput& input, RayTask task, const RayCastEntry& entry, Precision scalar,
+                 std::span<const RayHit> hits) {
+  TimedGrade sum;
   for (std::size_t i = 0; i < input.exact.size(); ++i) {
     const RayHit &hit = hits[i], &right = input.exact[i];
-    if (hit.status != Status::ok && hit.status != Status::not_reported) {
-      ++grade.unknown;
-      continue;
+    const double size = input.size / input.rays[i].direction.lpNorm<Eigen::Infinity>();
+    sum.add(grade_ray(task, hit, right, entry, scalar, size), static_cast<std::int64_t>(i));
+    if (is_meant(hit.status) && hit.hit && right.hit && task == RayTask::closest) {
+      sum.note_error(std::abs(hit.t - right.t) / std::max(right.t, 1e-30));
     }
-    if (hit.hit != right.hit) {
-      ++(right.hit ? grade.missed : grade.false_hits);
-      continue;
-    }
-    if (!right.hit || task == RayTask::any) continue;
-    const double error = std::abs(hit.t - right.t) / std::max(right.t, 1e-30);
-    // The error is the greatest, or the first that is no number.
-    if (!(error <= grade.error)) grade.error = error;
-    const bool off =
-        !(error <= greatest_ray_error) || (exact_verdicts && hit.triangle != right.triangle);
-    if (off) ++grade.other;
   }
-  return grade;
+  return sum;
 }
 
-// The cells of one mesh. What is bound to it, and the exact answers, serve several of them.
-class RayCells {
+// The sets of one mesh. What is bound to it, and the exact answers, serve several of them.
+class RaySets {
  public:
-  RayCells(std::shared_ptr<const MeshInput> mesh, std::vector<const RayCastEntry*> entries,
+  RaySets(std::shared_ptr<const MeshInput> mesh, std::vector<const RayCastEntry*> entries,
            std::size_t count, std::uint64_t seed)
       : mesh_(std::move(mesh)), entries_(std::move(entries)), count_(count), seed_(seed) {}
 
-  Cell make(Aim aim, RayTask task) {
+  TimedSet make(Aim aim, RayTask task) {
     const std::shared_ptr<const RayInput> input = input_of(aim);
-    Cell cell;
+    TimedSet cell;
     cell.queries = cell.graded = std::ssize(input->rays);
     for (const RayCastEntry* entry : entries_) {
       if (!offers(*entry, task)) continue;
@@ -141,6 +131,7 @@ class RayCells {
     if (last_ && last_aim_ == aim) return last_;
     const auto input = std::make_shared<RayInput>();
     input->rays = make_rays(*mesh_, aim, count_, seed_);
+    input->size = 0.5 * base::length(mesh_->high - mesh_->low);
     input->exact.resize(input->rays.size());
     bound(*find_ray_cast("exact"), Precision::float64)
         ->cast(RayTask::closest, input->rays, input->exact);
@@ -149,17 +140,17 @@ class RayCells {
     return input;
   }
 
-  Contestant contestant(const std::shared_ptr<const RayInput>& input, RayTask task,
+  TimedContestant contestant(const std::shared_ptr<const RayInput>& input, RayTask task,
                         const RayCastEntry& entry, Precision scalar) {
     const std::shared_ptr<RayCast> caster = bound(entry, scalar);
     const auto hits = std::make_shared<std::vector<RayHit>>(input->rays.size());
-    Contestant made;
+    TimedContestant made;
     made.name = entry.info.name;
     if (entry.scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
     made.origin = entry.info.origin;
     made.approximate = !entry.exact_verdicts;
     made.answer = [=] { caster->cast(task, input->rays, *hits); };
-    made.grade = [=, exact = entry.exact_verdicts] { return grade(*input, task, *hits, exact); };
+    made.grade = [=, &entry] { return grade(*input, task, entry, scalar, *hits); };
     return made;
   }
 
@@ -174,16 +165,16 @@ class RayCells {
 
 }  // namespace
 
-std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesystem::path& home) {
+std::vector<PlannedSet> ray_sets(files::TomlTable& table, const std::filesystem::path& home) {
   const auto count = static_cast<std::size_t>(table.integer("queries", 64, 100'000'000, 4096));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> aims = choices(table, "rays", aim_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", ray_task_names);
   const auto entries = selected(table, ray_casts(), "ray cast");
-  std::vector<PlannedCell> cells;
+  std::vector<PlannedSet> cells;
   for (const auto& mesh :
        mesh_inputs(table, home, {"torus-2000", "trefoil-10000", "terrain-100000"})) {
-    const auto maker = std::make_shared<RayCells>(mesh, entries, count, seed);
+    const auto maker = std::make_shared<RaySets>(mesh, entries, count, seed);
     for (const std::size_t aim : aims) {
       for (const std::size_t task : tasks) {
         cells.push_back(
@@ -195,4 +186,4 @@ std::vector<PlannedCell> ray_cells(files::TomlTable& table, const std::filesyste
   return cells;
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

@@ -14,11 +14,11 @@
 #include "harness/base/error.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/kinds/selection.h"
-#include "harness/cells/choices.h"
-#include "harness/cells/kinds.h"
+#include "harness/kinds/cast/cast_grade.h"
+#include "harness/kinds/cast/cast_sets.h"
+#include "harness/kinds/set_keys.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 namespace {
 
 enum class Way : std::uint8_t {
@@ -45,8 +45,6 @@ constexpr std::array<std::string_view, 10> way_names = {"hit",
                                                         "going in from a touch"};
 constexpr std::array<std::string_view, 5> shape_names = {"sphere", "capsule", "box", "hull-32",
                                                          "hull-128"};
-// A time of impact that is off by more than this length of path is wrong; bodies are about 1 in size.
-constexpr double greatest_path_error = 1e-2;
 
 double radians(Way way) {
   switch (way) {
@@ -82,20 +80,14 @@ struct CastInput {
   std::vector<std::uint32_t> shape_of, first, second;
   std::vector<Pose> poses;
   std::vector<Motion> motions;
-  std::vector<CastOutcome> exact;
+  std::vector<files::CastCase> graded;  // the first ones, which are held against the oracle
 
-  CastBatch batch(std::size_t count) const {
+  ::touchstone::CastBatch batch(std::size_t count) const {
     const ShapeKind kind = shapes.front().kind;
     return {kind,
             kind,
             {std::span(first).first(count), std::span(second).first(count), shape_of, poses},
             motions};
-  }
-  // The length of path that a unit of time stands for.
-  double path(std::size_t i) const {
-    const Motion &a = motions[first[i]], &b = motions[second[i]];
-    return base::length(b.displacement - a.displacement) + base::length(a.rotation_vector) +
-           base::length(b.rotation_vector);
   }
 };
 
@@ -154,29 +146,38 @@ void add_pair(CastInput& input, std::size_t kind, Way way, base::Random& random)
   add_body(input, std::move(b), pose_b, motion_b);
 }
 
-Grade grade(const CastInput& input, std::span<const CastOutcome> outcomes) {
-  Grade grade;
-  for (std::size_t i = 0; i < input.exact.size(); ++i) {
-    const CastOutcome &found = outcomes[i], &right = input.exact[i];
-    const bool sure = found.status == Status::ok || found.status == Status::not_reported;
-    if (!sure || found.answer == CastAnswer::unknown) {
-      ++grade.unknown;
-      continue;
-    }
-    if (right.status != Status::ok || right.answer == CastAnswer::unknown) continue;
-    if (found.answer != right.answer) {
-      ++(right.answer == CastAnswer::hit ? grade.missed : grade.false_hits);
-      continue;
-    }
-    if (found.answer == CastAnswer::miss) continue;
-    const double error = std::abs(found.toi - right.toi) * input.path(i);
-    if (!(error <= grade.error)) grade.error = error;
-    if (!(error <= greatest_path_error)) ++grade.other;
+std::vector<files::CastCase> first_cases(const CastInput& input, std::size_t count) {
+  std::vector<files::CastCase> cases(std::min(count, input.first.size()));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const std::uint32_t a = input.first[i], b = input.second[i];
+    files::CastCase& c = cases[i];
+    c.shape_a = input.shapes[input.shape_of[a]];
+    c.shape_b = input.shapes[input.shape_of[b]];
+    c.pose_a = input.poses[a];
+    c.pose_b = input.poses[b];
+    c.motion_a = input.motions[a];
+    c.motion_b = input.motions[b];
   }
-  return grade;
+  return cases;
 }
 
-Cell make_cast_cell(std::size_t kind, Way way, std::size_t count, std::size_t graded,
+TimedGrade grade(const CastInput& input, const CastEntry& entry, std::optional<double> tolerance,
+                 CastTruths& truths, std::span<const CastOutcome> outcomes) {
+  TimedGrade sum;
+  for (std::size_t i = 0; i < input.graded.size(); ++i) {
+    const CastOutcome &found = outcomes[i], &right = truths.of(i);
+    const double path = truths.path(i);
+    const double own = cast_tolerance(entry, tolerance, path, span_of_motion(input.graded[i]));
+    sum.add(grade_cast(found, right, {.place = i, .tolerance = own}, entry.in_time, truths),
+            static_cast<std::int64_t>(i));
+    if (is_meant(found.status) && found.answer == CastAnswer::hit && right.answer == CastAnswer::hit) {
+      sum.note_error(std::abs(found.toi - right.toi) * path);
+    }
+  }
+  return sum;
+}
+
+TimedSet make_set(std::size_t kind, Way way, std::size_t count, std::size_t graded,
                     std::uint64_t seed, std::optional<double> tolerance,
                     const std::vector<const CastEntry*>& entries) {
   const auto input = std::make_shared<CastInput>();
@@ -184,13 +185,12 @@ Cell make_cast_cell(std::size_t kind, Way way, std::size_t count, std::size_t gr
   for (std::size_t i = 0; i < count; ++i) add_pair(*input, kind, way, random);
   const ShapeKind shape = input->shapes.front().kind;
   const bool turns = radians(way) > 0;
-  input->exact.resize(std::min(graded, count));
-  const std::unique_ptr<Cast> oracle = find_cast("exact")->make({});
-  oracle->bind(input->shapes);
-  oracle->solve(input->batch(input->exact.size()), input->exact);
-  Cell cell;
+  input->graded = first_cases(*input, graded);
+  const auto truths = std::make_shared<CastTruths>(input->graded);
+  for (std::size_t i = 0; i < input->graded.size(); ++i) truths->of(i);
+  TimedSet cell;
   cell.queries = static_cast<std::int64_t>(count);
-  cell.graded = std::ssize(input->exact);
+  cell.graded = std::ssize(input->graded);
   for (const CastEntry* entry : entries) {
     if (!offers(*entry, shape, shape, turns)) continue;
     for (const Precision scalar : entry->scalars) {
@@ -198,13 +198,13 @@ Cell make_cast_cell(std::size_t kind, Way way, std::size_t count, std::size_t gr
       const std::shared_ptr<Cast> caster = entry->make(settings);
       caster->bind(input->shapes);
       const auto outcomes = std::make_shared<std::vector<CastOutcome>>(count);
-      Contestant made;
+      TimedContestant made;
       made.name = entry->info.name;
       if (entry->scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
       made.origin = entry->info.origin;
       made.approximate = !entry->info.known_defect.empty();
       made.answer = [=] { caster->solve(input->batch(input->first.size()), *outcomes); };
-      made.grade = [=] { return grade(*input, *outcomes); };
+      made.grade = [=] { return grade(*input, *entry, tolerance, *truths, *outcomes); };
       cell.contestants.push_back(std::move(made));
     }
   }
@@ -213,8 +213,7 @@ Cell make_cast_cell(std::size_t kind, Way way, std::size_t count, std::size_t gr
 
 }  // namespace
 
-std::vector<PlannedCell> cast_cells(files::TomlTable& table,
-                                    const std::filesystem::path& /*home*/) {
+std::vector<PlannedSet> cast_sets(files::TomlTable& table) {
   const auto count = static_cast<std::size_t>(table.integer("queries", 16, 1'000'000, 384));
   const auto graded = static_cast<std::size_t>(table.integer("graded", 16, 1'000'000, 384));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
@@ -223,11 +222,11 @@ std::vector<PlannedCell> cast_cells(files::TomlTable& table,
   const std::vector<std::size_t> ways = choices(table, "ways", way_names);
   const std::vector<std::size_t> shapes = choices(table, "shapes", shape_names);
   const auto entries = selected(table, casts(), "cast");
-  std::vector<PlannedCell> cells;
+  std::vector<PlannedSet> cells;
   for (const std::size_t way : ways) {
     for (const std::size_t shape : shapes) {
       cells.push_back({std::string(way_names[way]), std::string(shape_names[shape]), [=] {
-                         return make_cast_cell(shape, static_cast<Way>(way), count, graded, seed,
+                         return make_set(shape, static_cast<Way>(way), count, graded, seed,
                                                tolerance, entries);
                        }});
     }
@@ -235,4 +234,4 @@ std::vector<PlannedCell> cast_cells(files::TomlTable& table,
   return cells;
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

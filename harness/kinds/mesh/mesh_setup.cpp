@@ -1,5 +1,5 @@
 // Makes convex bodies and concave phases.
-#include "harness/cells/concave_setup.h"
+#include "harness/kinds/mesh/mesh_setup.h"
 
 #include <utility>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "algorithms/hull/convex_hull.h"
 #include "algorithms/registry.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 
 Shape convex_shape(std::string_view name, double size, base::Random& random) {
   Shape shape;
@@ -36,4 +36,4 @@ std::unique_ptr<ConcavePhase> make_phase(const ConcaveEntry& entry, Precision sc
   return entry.make(settings);
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

@@ -9,7 +9,7 @@
 #include "algorithms/core/shape.h"
 #include "harness/base/random.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 
 inline constexpr std::array<std::string_view, 4> convex_names = {"sphere", "capsule", "box",
                                                                  "hull-32"};
@@ -20,4 +20,4 @@ Shape convex_shape(std::string_view name, double size, base::Random& random);
 // With the mid-phase `wide-bvh` and the narrow phase `certified`, if it takes any.
 std::unique_ptr<ConcavePhase> make_phase(const ConcaveEntry& entry, Precision scalar, bool welds);
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

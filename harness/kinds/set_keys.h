@@ -15,7 +15,7 @@
 #include "harness/kinds/selection.h"
 #include "harness/files/toml_table.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 
 // The indices of the names that the key lists; all of them without the key.
 template <std::size_t size>
@@ -55,4 +55,4 @@ std::vector<const Entry*> selected(files::TomlTable& table, std::span<const Entr
   }
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

@@ -12,11 +12,12 @@
 #include "algorithms/registry.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/cells/choices.h"
-#include "harness/cells/kinds.h"
 #include "harness/files/motion/ccd_queries.h"
+#include "harness/kinds/feature/feature_grade.h"
+#include "harness/kinds/feature/feature_sets.h"
+#include "harness/kinds/set_keys.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 namespace {
 
 enum class Family : std::uint8_t {
@@ -96,36 +97,36 @@ CcdQuery draw(FeaturePair pair, Family family, base::Random& random) {
 struct CcdInput {
   FeaturePair pair;
   std::vector<CcdQuery> queries;
-  std::vector<CcdOutcome> exact;
+  std::vector<oracle::ccd::Impact> exact;
 };
 
-Grade grade(const CcdInput& input, std::span<const CcdOutcome> outcomes) {
-  Grade grade;
+TimedGrade grade(const CcdInput& input, const CcdSettings& settings, bool is_oracle,
+                 std::span<const CcdOutcome> outcomes) {
+  TimedGrade sum;
+  oracle::Oracle oracle;
+  const int first_count = input.pair == FeaturePair::vertex_face ? 1 : 2;
   for (std::size_t i = 0; i < input.exact.size(); ++i) {
-    const CcdOutcome &found = outcomes[i], &right = input.exact[i];
-    const bool sure = found.status == Status::ok || found.status == Status::not_reported;
-    if (!sure || found.answer == CcdAnswer::unknown) {
-      ++grade.unknown;
-      continue;
-    }
-    if (right.status != Status::ok) continue;
-    if (found.answer != right.answer) {
-      ++(right.answer == CcdAnswer::hit ? grade.missed : grade.false_hits);
-      continue;
-    }
-    if (found.answer == CcdAnswer::miss) continue;
+    const CcdOutcome& found = outcomes[i];
+    const oracle::ccd::Impact& right = input.exact[i];
+    const FeatureAsked asked = {.query = &input.queries[i],
+                                .first_count = first_count,
+                                .lengths = {settings.tolerance, settings.separation}};
+    sum.add(grade_feature(found, right, asked, is_oracle, oracle), static_cast<std::int64_t>(i));
     // Early is safe; late is a contact that has been passed.
-    const double late = found.toi - right.toi;
-    if (!(late <= grade.error)) grade.error = late;
+    if (is_meant(found.status) && found.answer == CcdAnswer::hit && right.is_hit) {
+      sum.note_error(found.toi - right.contact_by);
+    }
   }
-  return grade;
+  return sum;
 }
 
-Cell make_ccd_cell(const std::shared_ptr<CcdInput>& input, const CcdSettings& settings,
+TimedSet make_set(const std::shared_ptr<CcdInput>& input, const CcdSettings& settings,
                    const std::vector<const CcdEntry*>& entries) {
-  input->exact.resize(input->queries.size());
-  find_ccd("exact")->make(settings)->solve(input->pair, input->queries, input->exact);
-  Cell cell;
+  const int first_count = input->pair == FeaturePair::vertex_face ? 1 : 2;
+  for (const CcdQuery& query : input->queries) {
+    input->exact.push_back(impact_of({first_count, query.start, query.end}, settings.separation));
+  }
+  TimedSet cell;
   cell.queries = cell.graded = std::ssize(input->queries);
   for (const CcdEntry* entry : entries) {
     if (settings.separation > 0 && !entry->separations) {
@@ -134,14 +135,14 @@ Cell make_ccd_cell(const std::shared_ptr<CcdInput>& input, const CcdSettings& se
     }
     const std::shared_ptr<Ccd> solver = entry->make(settings);
     const auto outcomes = std::make_shared<std::vector<CcdOutcome>>(input->queries.size());
-    Contestant made;
+    TimedContestant made;
     made.name = entry->info.name;
     made.origin = entry->info.origin;
     made.approximate = !entry->info.known_defect.empty();
     made.answer = [=] { solver->solve(input->pair, input->queries, *outcomes); };
-    // What is found within the tolerance is no fault of those that have one.
-    made.grade = [=] { return grade(*input, *outcomes); };
-    made.tolerant = entry->info.origin == Origin::ours;
+    made.grade = [=, is_oracle = entry->info.origin == Origin::oracle] {
+      return grade(*input, settings, is_oracle, *outcomes);
+    };
     cell.contestants.push_back(std::move(made));
   }
   return cell;
@@ -169,7 +170,7 @@ std::vector<std::string> short_names(const std::vector<std::string>& files) {
 
 }  // namespace
 
-std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesystem::path& home) {
+std::vector<PlannedSet> feature_sets(files::TomlTable& table, const std::filesystem::path& home) {
   const auto count = static_cast<std::size_t>(table.integer("queries", 16, 10'000'000, 4096));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const double tolerance = table.number("tolerance", files::positive, 1e-6);
@@ -178,13 +179,13 @@ std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesyste
   if (separations.empty()) separations.push_back(0);
   const std::vector<std::size_t> families = choices(table, "families", family_names);
   const auto entries = selected(table, ccds(), "ccd");
-  std::vector<PlannedCell> cells;
+  std::vector<PlannedSet> cells;
   const auto add = [&](const std::string& group, const std::string& name, const auto& make_input) {
     for (const double separation : separations) {
       const CcdSettings settings = {.tolerance = tolerance, .separation = separation};
       cells.push_back({group,
                        separation > 0 ? fmt::format("{}, within {}", name, separation) : name,
-                       [=] { return make_ccd_cell(make_input(), settings, entries); }});
+                       [=] { return make_set(make_input(), settings, entries); }});
     }
   };
   for (const FeaturePair pair : feature_pairs) {
@@ -214,4 +215,4 @@ std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesyste
   return cells;
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

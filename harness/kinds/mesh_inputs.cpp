@@ -1,5 +1,5 @@
 // Reads meshes by name, and draws points in their boxes.
-#include "harness/cells/mesh_inputs.h"
+#include "harness/kinds/mesh_inputs.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "harness/base/error.h"
 #include "harness/geometry/shapes/named_mesh.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 
 Vec3d MeshInput::draw(base::Random& random) const {
   Vec3d point;
@@ -49,4 +49,4 @@ std::vector<std::shared_ptr<const MeshInput>> mesh_inputs(files::TomlTable& tabl
   return inputs;
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

@@ -11,19 +11,18 @@
 #include "algorithms/registry.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/cells/choices.h"
-#include "harness/cells/kinds.h"
-#include "harness/cells/mesh_inputs.h"
 #include "harness/geometry/shapes/compound.h"
+#include "harness/kinds/mesh_inputs.h"
+#include "harness/kinds/point/point_grade.h"
+#include "harness/kinds/point/point_sets.h"
+#include "harness/kinds/set_keys.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 namespace {
 
 enum class PointPlace : std::uint8_t { volume, near };
 constexpr std::array<std::string_view, 2> point_place_names = {"volume", "near"};
 constexpr std::array<std::string_view, 2> point_task_names = {"closest", "side"};
-// A distance is wrong if it is off by more, in parts of the mesh's size. Libraries may calculate in floats.
-constexpr double greatest_error_of_ours = 1e-14, greatest_error_of_peers = 1e-5;
 
 // In the mesh's box made larger by a half, or within a hundredth of its size of a triangle. All numbers are
 // floats, so that libraries of floats are asked the same.
@@ -54,55 +53,53 @@ std::vector<Vec3d> make_points(const MeshInput& input, PointPlace place, std::si
 struct PointInput {
   std::vector<Vec3d> points;
   std::vector<PointAnswer> exact;
-  double size = 1;  // metres, of the mesh's box
+  std::vector<double> reaches;  // metres, as in grade_point
+  double size = 1;              // metres, of the mesh's box
 };
 
-Grade grade_points(const PointInput& input, PointTask task, std::span<const PointAnswer> answers,
-                   bool is_ours) {
-  Grade grade;
+TimedGrade grade_points(const PointInput& input, PointTask task, Precision scalar,
+                        std::span<const PointAnswer> answers) {
+  TimedGrade sum;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const PointAnswer &answer = answers[i], &right = input.exact[i];
-    if (answer.status != Status::ok && answer.status != Status::not_reported) {
-      ++grade.unknown;
-    } else if (task == PointTask::side) {
-      if (answer.side == right.side) continue;
-      const bool is_out = answer.side == PointSide::outside;
-      ++(is_out ? grade.missed : right.side == PointSide::outside ? grade.false_hits : grade.other);
-    } else {
-      const double error = std::abs(answer.distance - right.distance) / input.size;
-      // The error is the greatest, or the first that is no number.
-      if (!(error <= grade.error)) grade.error = error;
-      if (!(error <= (is_ours ? greatest_error_of_ours : greatest_error_of_peers))) ++grade.other;
+    sum.add(grade_point(task, answer, right, scalar, input.reaches[i]),
+            static_cast<std::int64_t>(i));
+    if (task == PointTask::closest && is_meant(answer.status)) {
+      sum.note_error(std::abs(answer.distance - right.distance) / input.size);
     }
   }
-  return grade;
+  return sum;
 }
 
-// The cells of one mesh. What is bound to it serves all of them.
-class PointCells {
+// The sets of one mesh. What is bound to it serves all of them.
+class PointSets {
  public:
-  PointCells(std::shared_ptr<const MeshInput> mesh, std::vector<const PointQueryEntry*> entries,
+  PointSets(std::shared_ptr<const MeshInput> mesh, std::vector<const PointQueryEntry*> entries,
              std::size_t count, std::uint64_t seed)
       : mesh_(std::move(mesh)), entries_(std::move(entries)), count_(count), seed_(seed) {}
 
-  Cell make(PointPlace place, PointTask task) {
+  TimedSet make(PointPlace place, PointTask task) {
     const auto input = std::make_shared<PointInput>();
     input->points = make_points(*mesh_, place, count_, seed_);
     input->exact.resize(count_);
     input->size = base::length(mesh_->high - mesh_->low);
     bound(*find_point_query("exact"))->query(task, input->points, input->exact);
-    Cell cell;
+    const double reach = point_reach(Vec3d::Zero(), mesh_->mesh);
+    for (const Vec3d& point : input->points) {
+      input->reaches.push_back(std::max(reach, point.norm()));
+    }
+    TimedSet cell;
     cell.queries = cell.graded = static_cast<std::int64_t>(count_);
     for (const PointQueryEntry* entry : entries_) {
       if (std::ranges::count(entry->tasks, task) == 0) continue;
       const std::shared_ptr<PointQuery> query = bound(*entry);
       const auto answers = std::make_shared<std::vector<PointAnswer>>(count_);
-      Contestant contestant;
+      TimedContestant contestant;
       contestant.name = entry->info.name;
       contestant.origin = entry->info.origin;
       contestant.answer = [=] { query->query(task, input->points, *answers); };
-      contestant.grade = [=, is_ours = entry->info.origin == Origin::ours] {
-        return grade_points(*input, task, *answers, is_ours);
+      contestant.grade = [=, scalar = entry->scalar] {
+        return grade_points(*input, task, scalar, *answers);
       };
       cell.contestants.push_back(std::move(contestant));
     }
@@ -128,20 +125,20 @@ class PointCells {
 
 }  // namespace
 
-std::vector<PlannedCell> point_cells(files::TomlTable& table, const std::filesystem::path& home) {
+std::vector<PlannedSet> point_sets(files::TomlTable& table, const std::filesystem::path& home) {
   const auto count = static_cast<std::size_t>(table.integer("queries", 16, 100'000'000, 4096));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> places = choices(table, "points", point_place_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", point_task_names);
   const auto entries = selected(table, point_queries(), "point query");
   const bool asks_side = std::ranges::count(tasks, std::size_t{1}) > 0;
-  std::vector<PlannedCell> cells;
+  std::vector<PlannedSet> cells;
   for (const auto& mesh :
        mesh_inputs(table, home, {"torus-2000", "trefoil-10000", "ellipsoid-25000"})) {
     if (asks_side && geometry::open_edge(mesh->mesh.vertices, mesh->mesh.triangles)) {
       table.fail("meshes", mesh->title + " are open; expected a closed surface for the task side");
     }
-    const auto maker = std::make_shared<PointCells>(mesh, entries, count, seed);
+    const auto maker = std::make_shared<PointSets>(mesh, entries, count, seed);
     for (const std::size_t place : places) {
       for (const std::size_t task : tasks) {
         cells.push_back(
@@ -155,4 +152,4 @@ std::vector<PlannedCell> point_cells(files::TomlTable& table, const std::filesys
   return cells;
 }
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds

@@ -10,7 +10,7 @@
 #include "harness/base/random.h"
 #include "harness/files/toml_table.h"
 
-namespace touchstone::cells {
+namespace touchstone::kinds {
 
 struct MeshInput {
   std::string title;  // name and count of triangles
@@ -32,4 +32,4 @@ std::vector<std::shared_ptr<const MeshInput>> mesh_inputs(files::TomlTable& tabl
                                                           const std::filesystem::path& home,
                                                           const std::vector<std::string>& without);
 
-}  // namespace touchstone::cells
+}  // namespace touchstone::kinds
