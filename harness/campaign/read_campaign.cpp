@@ -9,8 +9,8 @@
 #include <optional>
 #include <type_traits>
 
-#include "harness/kinds/selection.h"
 #include "harness/files/toml_table.h"
+#include "harness/kinds/selection.h"
 
 namespace touchstone::campaign {
 namespace {

@@ -65,7 +65,8 @@ std::vector<Timed> shuffled(std::vector<Timed> order, base::Random random) {
 }
 
 // The cells, each with those that join it.
-std::vector<std::span<const kinds::PlannedSet>> with_joined(std::span<const kinds::PlannedSet> cells) {
+std::vector<std::span<const kinds::PlannedSet>> with_joined(
+    std::span<const kinds::PlannedSet> cells) {
   std::vector<std::span<const kinds::PlannedSet>> all;
   for (std::size_t first = 0, end = 1; first < cells.size(); first = end, ++end) {
     while (end < cells.size() && cells[end].joins_last) ++end;
@@ -159,8 +160,8 @@ class CellRun {
     return true;
   }
 
-  void write_grade(const kinds::PlannedSet& planned, const kinds::TimedSet& cell, const kinds::TimedContestant& contestant,
-                   const Graded& graded) {
+  void write_grade(const kinds::PlannedSet& planned, const kinds::TimedSet& cell,
+                   const kinds::TimedContestant& contestant, const Graded& graded) {
     stats::GradeRow row;
     row.group = planned.group;
     row.cell = planned.name;
@@ -186,7 +187,8 @@ class CellRun {
     folder_.write(grades_file, row);
   }
 
-  void write_left_out(const kinds::PlannedSet& planned, const kinds::TimedSet& cell, const kinds::LeftOut& left_out) {
+  void write_left_out(const kinds::PlannedSet& planned, const kinds::TimedSet& cell,
+                      const kinds::LeftOut& left_out) {
     stats::GradeRow row;
     row.group = planned.group;
     row.cell = planned.name;

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "algorithms/registry.h"
-#include "harness/kinds/set_keys.h"
 #include "harness/cells/kinds.h"
 #include "harness/grade/pair_check.h"
+#include "harness/kinds/set_keys.h"
 #include "harness/measure/phases/block_input.h"
 
 namespace touchstone::cells {
@@ -152,7 +152,8 @@ class LoopPlayer {
     return some;
   }
 
-  void add_faults(std::size_t i, const PairSink& sink, const Pairs& truth, kinds::TimedGrade& grade) const {
+  void add_faults(std::size_t i, const PairSink& sink, const Pairs& truth,
+                  kinds::TimedGrade& grade) const {
     Pairs found = sink.gather();
     grade.hits += std::ssize(found);
     grade.true_hits += std::ssize(truth);
@@ -171,8 +172,8 @@ class LoopPlayer {
   PairSink pairs_, ended_;
 };
 
-kinds::TimedSet make_frame_cell(const std::shared_ptr<const FrameLoop>& loop, Question question, int threads,
-                     const std::vector<const BroadPhaseEntry*>& entries) {
+kinds::TimedSet make_frame_cell(const std::shared_ptr<const FrameLoop>& loop, Question question,
+                                int threads, const std::vector<const BroadPhaseEntry*>& entries) {
   kinds::TimedSet cell;
   cell.queries = cell.graded = static_cast<std::int64_t>(loop->frames.size());
   cell.truth = "all-pairs";
@@ -235,7 +236,7 @@ void check_source(files::TomlTable& table, const LoopSource& source) {
 
 std::vector<LoopSource> read_sources(files::TomlTable& table, const std::filesystem::path& home) {
   std::vector<std::optional<double>> shares;
-  for (const double share : listed_numbers(table, "moving", 0, 1, "shares of the bodies"))
+  for (const double share : kinds::listed_numbers(table, "moving", 0, 1, "shares of the bodies"))
     shares.emplace_back(share);
   if (shares.empty()) shares.emplace_back();
   const auto frames = static_cast<int>(table.integer("frames", 2, 1'000'000, -1));
@@ -258,11 +259,12 @@ std::vector<LoopSource> read_sources(files::TomlTable& table, const std::filesys
 
 }  // namespace
 
-std::vector<kinds::PlannedSet> frame_cells(files::TomlTable& table, const std::filesystem::path& home) {
+std::vector<kinds::PlannedSet> frame_cells(files::TomlTable& table,
+                                           const std::filesystem::path& home) {
   const std::vector<LoopSource> sources = read_sources(table, home);
   const std::vector<std::int64_t> threads = table.integers("threads", 1, 1024, 1);
-  const std::vector<std::size_t> questions = choices(table, "asks", question_names);
-  const auto entries = selected(table, broad_phases(), "broad phase");
+  const std::vector<std::size_t> questions = kinds::choices(table, "asks", question_names);
+  const auto entries = kinds::selected(table, broad_phases(), "broad phase");
   const auto last = std::make_shared<LastLoop>();
   std::vector<kinds::PlannedSet> cells;
   for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "harness/base/error.h"
-#include "harness/kinds/set_keys.h"
 #include "harness/cells/kinds.h"
 #include "harness/cells/motion/motion_plan.h"
+#include "harness/kinds/set_keys.h"
 
 namespace touchstone::cells {
 namespace {
@@ -43,7 +43,8 @@ std::vector<int> whole_numbers(files::TomlTable& table, std::string_view key, st
 
 }  // namespace
 
-std::vector<kinds::PlannedSet> motion_cells(files::TomlTable& table, const std::filesystem::path& home) {
+std::vector<kinds::PlannedSet> motion_cells(files::TomlTable& table,
+                                            const std::filesystem::path& home) {
   MotionRequest request;
   for (const std::string& scene : table.texts("scenes", {})) request.scenes.push_back(home / scene);
   if (request.scenes.empty()) table.fail("scenes", "missing; expected files of scenes");
@@ -66,7 +67,7 @@ std::vector<kinds::PlannedSet> motion_cells(files::TomlTable& table, const std::
   request.narrow =
       chains(table, "narrow", {"closed-form+gjk"}, narrow_phases(), narrow_chain, "narrow phase");
   request.scalars.clear();
-  for (const std::size_t scalar : choices(table, "scalars", scalar_names))
+  for (const std::size_t scalar : kinds::choices(table, "scalars", scalar_names))
     request.scalars.push_back(static_cast<Precision>(scalar));
   if (!table.contains("scalars")) request.scalars = {Precision::float64};
   if (table.has("tolerance")) request.tolerance = table.number("tolerance", files::positive);

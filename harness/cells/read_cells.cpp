@@ -26,10 +26,8 @@ using MakeSets = std::vector<kinds::PlannedSet> (*)(files::TomlTable&,
                                                     const std::filesystem::path&);
 // Timed sets that are no kind of query by themselves.
 constexpr std::array<std::pair<std::string_view, MakeSets>, 3> other_sets = {
-    {{"sliding",
-      [](files::TomlTable& table, const std::filesystem::path&) {
-        return kinds::sliding_sets(table);
-      }},
+    {{"sliding", [](files::TomlTable& table,
+                    const std::filesystem::path&) { return kinds::sliding_sets(table); }},
      {"motion", motion_cells},
      {"frames", frame_cells}}};
 
@@ -44,8 +42,8 @@ std::vector<kinds::PlannedSet> read_sets(files::TomlTable& table,
   if (const kinds::Kind* kind = kinds::find_kind(name)) return kind->timed_sets(table, home);
   std::string known;
   for (const kinds::Kind* kind : kinds::kinds()) known += std::string(kind->name()) + ", ";
-  table.fail("kind", fmt::format("found '{}'; expected one of {}sliding, motion, frames", name,
-                                 known));
+  table.fail("kind",
+             fmt::format("found '{}'; expected one of {}sliding, motion, frames", name, known));
 }
 
 std::string fingerprint(const std::string& text) {

@@ -6,8 +6,8 @@
 
 #include "harness/base/table.h"
 #include "harness/check/check_report.h"
-#include "harness/check/grouped_counts.h"
 #include "harness/check/families/family_tables.h"
+#include "harness/check/grouped_counts.h"
 #include "harness/grade/wrong.h"
 #include "harness/record/machine.h"
 

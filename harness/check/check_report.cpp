@@ -9,8 +9,8 @@
 
 #include "harness/base/table.h"
 #include "harness/check/check_rows.h"
-#include "harness/check/grouped_counts.h"
 #include "harness/check/families/family_tables.h"
+#include "harness/check/grouped_counts.h"
 
 namespace touchstone::check {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/kinds/kind.h"
 #include "harness/check/regimes/regimes.h"
+#include "harness/kinds/kind.h"
 #include "harness/record/part.h"
 
 namespace touchstone::check {
@@ -51,7 +51,7 @@ struct CheckRequest {
   std::vector<const NarrowPhaseEntry*> narrow;
   std::vector<const BroadPhaseEntry*> broad;
   std::vector<Precision> scalars = {Precision::float64, Precision::float32};
-  std::vector<const Regime*> regimes;       // of pairs, for narrow phases
+  std::vector<const Regime*> regimes;          // of pairs, for narrow phases
   std::vector<const kinds::Family*> families;  // of cases, for contestants of their kinds
   std::vector<kinds::Contestant> contestants;
   std::uint64_t seed = 1;

@@ -9,9 +9,9 @@
 #include "harness/base/progress.h"
 #include "harness/check/check_job.h"
 #include "harness/check/check_rows.h"
-#include "harness/check/job_folder.h"
 #include "harness/check/families/family_failures.h"
 #include "harness/check/families/family_rows.h"
+#include "harness/check/job_folder.h"
 
 namespace touchstone::check {
 namespace {

@@ -10,7 +10,6 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/table.h"
-#include "harness/kinds/selection.h"
 #include "harness/check/regimes/settled_pairs.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
@@ -19,6 +18,7 @@
 #include "harness/files/csv.h"
 #include "harness/files/text_file.h"
 #include "harness/grade/manifold/manifold_tally.h"
+#include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_manifold.h"
 
@@ -41,7 +41,7 @@ struct Asked {
 };
 
 // One algorithm in one scalar.
-struct kinds::Contestant {
+struct Contestant {
   const ManifoldEntry* entry;
   Precision scalar;
   // One for each case; `unsupported` for kinds that the algorithm lacks.
@@ -69,7 +69,7 @@ std::vector<Asked> read_or_make_cases(const ManifoldOptions& options) {
 }
 
 // Runs the algorithm in a child process. Prints the failures.
-void ask(kinds::Contestant& contestant, const std::vector<Asked>& asked, double time_limit) {
+void ask(Contestant& contestant, const std::vector<Asked>& asked, double time_limit) {
   const ManifoldEntry& entry = *contestant.entry;
   contestant.manifolds.resize(asked.size());
   std::vector<std::size_t> taken;
@@ -93,12 +93,12 @@ void ask(kinds::Contestant& contestant, const std::vector<Asked>& asked, double 
 }
 
 void write_points(const std::string& file, const std::vector<Asked>& asked,
-                  const std::vector<kinds::Contestant>& contestants) {
+                  const std::vector<Contestant>& contestants) {
   files::CsvWriter csv(
       file, {"id", "algorithm", "scalar", "answer", "status", "normal_x", "normal_y", "normal_z",
              "count", "point", "depth", "a_x", "a_y", "a_z", "b_x", "b_y", "b_z", "feature"});
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    for (const kinds::Contestant& contestant : contestants) {
+    for (const Contestant& contestant : contestants) {
       const Manifold& manifold = contestant.manifolds[i];
       // A manifold without points has one row too.
       for (int k = 0; k < std::max(1, manifold.count); ++k) {
@@ -125,9 +125,9 @@ void write_points(const std::string& file, const std::vector<Asked>& asked,
   csv.close();
 }
 
-void print_counts(const std::vector<kinds::Contestant>& contestants) {
+void print_counts(const std::vector<Contestant>& contestants) {
   base::Table table({"algorithm", "0 points", "1", "2", "3", "4", "not asked"});
-  for (const kinds::Contestant& contestant : contestants) {
+  for (const Contestant& contestant : contestants) {
     std::array<std::size_t, 6> counts{};
     for (const Manifold& manifold : contestant.manifolds) {
       const bool asked = manifold.status != Status::unsupported;
@@ -141,11 +141,11 @@ void print_counts(const std::vector<kinds::Contestant>& contestants) {
 }
 
 grade::ManifoldTally grade_all(const std::vector<Asked>& asked,
-                               const std::vector<kinds::Contestant>& contestants) {
+                               const std::vector<Contestant>& contestants) {
   grade::ManifoldTally tally;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const grade::ManifoldTruth truth = grade::manifold_truth(asked[i].pair);
-    for (const kinds::Contestant& contestant : contestants) {
+    for (const Contestant& contestant : contestants) {
       const Manifold& manifold = contestant.manifolds[i];
       if (manifold.status == Status::unsupported) continue;
       tally.add(asked[i].family, contestant.name(), contestant.entry->info, contestant.scalar,
@@ -186,8 +186,8 @@ std::string page_text(const ManifoldOptions& options, const grade::ManifoldTally
 }
 
 int manifold(const ManifoldOptions& options) {
-  const auto entries = kinds::select(
-      contact_manifolds(), kinds::split_names(options.algorithms), "contact manifold");
+  const auto entries = kinds::select(contact_manifolds(), kinds::split_names(options.algorithms),
+                                     "contact manifold");
   if (options.out.empty() && !options.grade) {
     throw base::InputError("nothing is asked for; expected --out FILE or --grade, or both");
   }
@@ -197,14 +197,14 @@ int manifold(const ManifoldOptions& options) {
   const std::vector<Asked> asked = read_or_make_cases(options);
   files::check_outputs({{"CASES", options.cases}},
                        {{"--out", options.out}, {"--page", options.page}});
-  std::vector<kinds::Contestant> contestants;
+  std::vector<Contestant> contestants;
   for (const ManifoldEntry* entry : entries) {
     for (const Precision scalar : {Precision::float64, Precision::float32}) {
       const bool wanted = !options.scalar || *options.scalar == scalar;
       if (wanted && offers(*entry, scalar)) contestants.push_back({entry, scalar, {}});
     }
   }
-  for (kinds::Contestant& contestant : contestants) ask(contestant, asked, options.time_limit);
+  for (Contestant& contestant : contestants) ask(contestant, asked, options.time_limit);
   if (!options.out.empty()) write_points(options.out, asked, contestants);
   print_counts(contestants);
   if (!options.grade) return exit_done;

@@ -14,12 +14,12 @@
 
 #include "harness/base/error.h"
 #include "harness/campaign/campaign.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/toml_table.h"
+#include "harness/kinds/selection.h"
 #include "harness/record/machine.h"
 #include "harness/report/page_file.h"
 #include "harness/report/recording_view.h"
@@ -84,8 +84,7 @@ report::RecordingRequest recording_request(const ReportOptions& options) {
   request.time_limit = options.time_limit;
   request.narrow =
       kinds::select(narrow_phases(), kinds::split_names(options.narrow), "narrow phase");
-  request.broad =
-      kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
+  request.broad = kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
   return request;
 }
 

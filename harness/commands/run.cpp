@@ -8,13 +8,13 @@
 #include "harness/base/error.h"
 #include "harness/campaign/plan.h"
 #include "harness/campaign/runner.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures/page.h"
 #include "harness/commands/program.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/toml_table.h"
+#include "harness/kinds/selection.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
 #include "harness/stats/run_report.h"
@@ -66,8 +66,7 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   group.boxes = options.boxes;
   group.threads = options.threads;
   group.rebuild = options.rebuild;
-  group.broad =
-      kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
+  group.broad = kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
   for (const NarrowPhaseEntry* entry :
        kinds::select(narrow_phases(), kinds::split_names(options.narrow), "narrow phase")) {
     for (const Precision scalar : options.scalars) {
@@ -81,8 +80,7 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   }
   group.concave = measure::concave_choices(
       kinds::select(concave_phases(), kinds::split_names(options.concave), "concave phase"),
-      kinds::select(mid_phases(), kinds::split_names(options.mids), "mid-phase"),
-      options.scalars);
+      kinds::select(mid_phases(), kinds::split_names(options.mids), "mid-phase"), options.scalars);
   group.tasks = options.tasks;
   group.pairing = options.product ? campaign::Pairing::product : campaign::Pairing::separate;
   group.time_limit = options.time_limit;

@@ -14,8 +14,9 @@ namespace touchstone::kinds {
 class Kind;
 
 struct Family {
-  std::string name;   // "triangles-edges-1e-9": lower case, words joined by '-'
-  std::string group;  // "triangles", "bodies", "rays", "points", "casts", "turns", "vertex-face", ...
+  std::string name;  // "triangles-edges-1e-9": lower case, words joined by '-'
+  std::string
+      group;  // "triangles", "bodies", "rays", "points", "casts", "turns", "vertex-face", ...
   const Kind* kind = nullptr;
   std::uint32_t number = 0;  // among those of its kind
   int one_in = 1;            // so many times fewer cases, since the exact answer takes long
@@ -34,7 +35,8 @@ struct AxisValue {
 std::vector<AxisValue> decades(int first, int last);
 
 // Adds a family for each value of an axis.
-void add_axis(std::vector<Family>& list, const std::string& axis, std::span<const AxisValue> values);
+void add_axis(std::vector<Family>& list, const std::string& axis,
+              std::span<const AxisValue> values);
 
 // A family that draws whole cases.
 template <class Case>

@@ -14,13 +14,13 @@ enum class Grade : std::uint8_t {
   not_asked,   // the algorithm does not take the query, or the form would round it
   unresolved,  // the exact answer is not known
   right,
-  near,       // contact is reported where there is none, within the algorithm's tolerance; this is verified
+  near,  // contact is reported where there is none, within the algorithm's tolerance; this is verified
   missed,     // no contact is reported where there is one
   false_hit,  // contact is reported where there is none, not within the tolerance
-  inexact,    // the verdict is right; a number, pair, triangle or bound is off by more than the stated margin
-  bound,      // the verdict is right; a number of an algorithm that gives upper bounds by design is off
-  gave_up,    // the status says that the answer is not to be trusted, or there is no answer
-  failed,     // a crash, or no answer in time
+  inexact,  // the verdict is right; a number, pair, triangle or bound is off by more than the stated margin
+  bound,  // the verdict is right; a number of an algorithm that gives upper bounds by design is off
+  gave_up,  // the status says that the answer is not to be trusted, or there is no answer
+  failed,   // a crash, or no answer in time
 };
 
 struct Graded {
@@ -34,7 +34,8 @@ struct GradeCount {
   std::int64_t contacts = 0;  // of these, by the exact answer
   std::int64_t unresolved = 0, right = 0, near = 0, missed = 0, false_hits = 0, inexact = 0;
   std::int64_t bound = 0, gave_up = 0, failed = 0;
-  std::int64_t first_wrong = -1;  // index of the first query that is missed, false, inexact or failed
+  std::int64_t first_wrong =
+      -1;  // index of the first query that is missed, false, inexact or failed
 
   void add(const Graded& graded, std::int64_t index);
   void add(const GradeCount& other);

@@ -72,10 +72,10 @@ std::vector<AxisValue> decades(int first, int last) {
   return values;
 }
 
-void add_axis(std::vector<Family>& list, const std::string& axis, std::span<const AxisValue> values) {
+void add_axis(std::vector<Family>& list, const std::string& axis,
+              std::span<const AxisValue> values) {
   for (const AxisValue& at : values) {
-    list.push_back(
-        {.name = axis + "-" + at.name, .group = "axes", .axis = axis, .value = at.name});
+    list.push_back({.name = axis + "-" + at.name, .group = "axes", .axis = axis, .value = at.name});
   }
 }
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "harness/kinds/grading.h"
 #include "harness/families/meshes.h"
 #include "harness/kinds/exact_forms.h"
+#include "harness/kinds/grading.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::kinds {

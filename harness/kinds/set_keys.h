@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "harness/base/error.h"
-#include "harness/kinds/selection.h"
 #include "harness/files/toml_table.h"
+#include "harness/kinds/selection.h"
 
 namespace touchstone::kinds {
 

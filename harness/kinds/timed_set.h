@@ -32,7 +32,7 @@ struct TimedContestant {
   bool approximate = false;  // its errors are known, and are no fault
   // Readies it, untimed, once in each process and before the first answer there; may be null.
   std::function<void()> prepare = {};
-  std::function<void()> answer;  // answers all queries; this is timed
+  std::function<void()> answer;       // answers all queries; this is timed
   std::function<TimedGrade()> grade;  // judges the last answers
 };
 
@@ -45,14 +45,14 @@ struct LeftOut {
 // The contestants refer to the queries, which they keep alive.
 struct TimedSet {
   std::int64_t queries = 0;
-  std::int64_t graded = 0;  // the first so many are held against the truth
+  std::int64_t graded = 0;            // the first so many are held against the truth
   std::string_view truth = "oracle";  // who says what is right
   std::vector<TimedContestant> contestants;
   std::vector<LeftOut> left_out = {};
 };
 
 struct PlannedSet {
-  std::string group, name;     // the group's sets are one table
+  std::string group, name;         // the group's sets are one table
   std::function<TimedSet()> make;  // the same set each time
   // Its rounds are those of the set before it, as where only threads differ, so that the ratio of both holds
   // whatever else the machine does meanwhile.

@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "harness/kinds/selection.h"
 #include "harness/files/toml_table.h"
+#include "harness/kinds/selection.h"
 
 namespace touchstone::trade {
 namespace {

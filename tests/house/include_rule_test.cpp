@@ -92,9 +92,9 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
 
 // The rooms of the harness, from the bottom up: each includes itself and those before it.
 const std::vector<std::string> harness_rooms = {
-    "base",   "geometry", "families", "files", "scene",    "process", "record",
-    "grade",  "kinds",    "proxies",  "measure", "stats",  "campaign", "check",
-    "trade",  "shards",   "cells",    "draw",    "bench",  "report",   "commands"};
+    "base",  "geometry", "families", "files",   "scene", "process",  "record",
+    "grade", "kinds",    "proxies",  "measure", "stats", "campaign", "check",
+    "trade", "shards",   "cells",    "draw",    "bench", "report",   "commands"};
 
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
 const std::set<std::string> algorithm_rooms = {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "harness/base/table.h"
-#include "harness/kinds/selection.h"
 #include "harness/files/text_file.h"
+#include "harness/kinds/selection.h"
 #include "harness/stats/cells/cell_rows.h"
 #include "harness/trade/front.h"
 

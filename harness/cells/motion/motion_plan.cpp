@@ -41,7 +41,8 @@ std::size_t count_outside(std::span<const IndexPair> from, std::span<const Index
   }));
 }
 
-kinds::TimedGrade grade_steps(std::span<const StepAnswer> truth, std::span<const StepAnswer> found) {
+kinds::TimedGrade grade_steps(std::span<const StepAnswer> truth,
+                              std::span<const StepAnswer> found) {
   kinds::TimedGrade grade;
   grade.hits = grade.true_hits = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -155,8 +156,8 @@ bool takes_all(const MotionScene& scene, const MotionMethod& method) {
   return true;
 }
 
-kinds::TimedSet make_motion_cell(const std::shared_ptr<MotionScene>& scene, const MotionRequest& request,
-                      int threads, int most_threads) {
+kinds::TimedSet make_motion_cell(const std::shared_ptr<MotionScene>& scene,
+                                 const MotionRequest& request, int threads, int most_threads) {
   scene->find_truth(most_threads);
   kinds::TimedSet cell;
   cell.queries = static_cast<std::int64_t>(scene->input.bodies() * scene->input.steps.size());

@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "harness/base/error.h"
-#include "harness/kinds/selection.h"
 #include "harness/check/axes/axis_draws.h"
 #include "harness/kinds/kind.h"
+#include "harness/kinds/selection.h"
 
 namespace touchstone::check {
 namespace {

@@ -19,11 +19,11 @@
 namespace touchstone::check {
 
 struct StressAxis {
-  std::string name;               // "scale-down": lower case, words joined by '-'
-  std::string unit;               // unit of the values, in words
-  std::string what;               // one line of description
+  std::string name;                      // "scale-down": lower case, words joined by '-'
+  std::string unit;                      // unit of the values, in words
+  std::string what;                      // one line of description
   std::vector<kinds::AxisValue> values;  // from mild to extreme
-  bool extreme = true;            // see Regime
+  bool extreme = true;                   // see Regime
   RegimeCase (*draw)(RegimeDraw&) = nullptr;
   // Returns whether the exact answer is the requested one (size: pair_size, metres). Null if the
   // shapes alone decide the value, and not their poses.

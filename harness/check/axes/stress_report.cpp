@@ -21,7 +21,7 @@ std::string promise(const StressRequest& request, const StressResult& result) {
                             return request.narrow[reach.entry]->info.origin == Origin::ours &&
                                    reach.scalar == Precision::float64;
                           }) ||
-      std::ranges::any_of(request.contestants, &kinds::Contestant::is_promised);
+      std::ranges::any_of(request.contestants, &kinds::Contestant::promised);
   if (!asked) return "";
   if (result.broken.empty()) {
     return "In double, none of our own algorithms is silently wrong, crashes or hangs.\n";

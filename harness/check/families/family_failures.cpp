@@ -19,8 +19,7 @@ std::vector<FamilyFailure> write_family_failures(const CheckRequest& request,
     if (!contestant.promised && key.form != kinds::CaseForm::as_drawn) continue;
     std::filesystem::create_directories(folder);
     const kinds::Family& family = *request.families[key.family];
-    std::string name =
-        fmt::format("{}-{}-{}", family.kind->name(), contestant.name(), family.name);
+    std::string name = fmt::format("{}-{}-{}", family.kind->name(), contestant.name(), family.name);
     if (key.form != kinds::CaseForm::as_drawn) name += "-" + std::string(to_string(key.form));
     std::ranges::replace(name, ' ', '-');
     const auto first = static_cast<std::uint64_t>(count.first_wrong);

@@ -35,7 +35,7 @@ std::vector<FamilyCount> count(const CheckRequest& request, std::uint32_t family
 }  // namespace
 
 kinds::BatchRange cases_of_round(const CheckRequest& request, const kinds::Family& family,
-                          std::uint64_t round) {
+                                 std::uint64_t round) {
   const auto cases = static_cast<std::size_t>(std::max(request.cases / family.one_in, 1));
   return {request.seed, round * cases, cases};
 }

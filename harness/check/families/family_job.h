@@ -10,7 +10,7 @@ namespace touchstone::check {
 
 // The cases of a family in a round: as many as the request says, or fewer.
 kinds::BatchRange cases_of_round(const CheckRequest& request, const kinds::Family& family,
-                          std::uint64_t round);
+                                 std::uint64_t round);
 
 // Asks all contestants for all cases, in every form. A contestant that takes none has no count.
 std::vector<FamilyCount> do_family_job(const CheckRequest& request, std::uint32_t family,

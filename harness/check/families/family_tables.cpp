@@ -28,14 +28,15 @@ base::Table sums(const CheckRequest& request, const FamilyCounts& counts, const 
     if (request.contestants[place].kind != &kind) continue;
     FamilyCount drawn, others;
     for (const auto& [key, count] : counts) {
-      if (key.contestant == place) (key.form == kinds::CaseForm::as_drawn ? drawn : others).add(count);
+      if (key.contestant == place)
+        (key.form == kinds::CaseForm::as_drawn ? drawn : others).add(count);
     }
     if (drawn.cases == 0) continue;
     table.add({request.contestants[place].name(), number(drawn.cases), number(drawn.contacts),
                number(drawn.unresolved), number(drawn.right), number(drawn.near),
                number(drawn.missed), number(drawn.false_hits), number(drawn.inexact),
-               number(drawn.bound), number(drawn.gave_up), number(drawn.failed), number(others.cases),
-               number(others.silent() + others.failed)});
+               number(drawn.bound), number(drawn.gave_up), number(drawn.failed),
+               number(others.cases), number(others.silent() + others.failed)});
   }
   return table;
 }
@@ -50,7 +51,8 @@ std::string cell(const FamilyCount& count) {
 }
 
 // A row for each family, and a column for each contestant that is wrong in any.
-std::string by_family(const CheckRequest& request, const FamilyCounts& counts, const kinds::Kind& kind) {
+std::string by_family(const CheckRequest& request, const FamilyCounts& counts,
+                      const kinds::Kind& kind) {
   std::vector<std::uint32_t> wrong, right;
   for (std::uint32_t place = 0; place < request.contestants.size(); ++place) {
     if (request.contestants[place].kind != &kind) continue;

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "harness/base/error.h"
-#include "harness/kinds/selection.h"
 #include "harness/check/requests/select_cases.h"
 #include "harness/check/requests/select_narrow.h"
 #include "harness/files/toml_table.h"
+#include "harness/kinds/selection.h"
 
 namespace touchstone::check {
 namespace {

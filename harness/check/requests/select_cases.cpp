@@ -66,8 +66,8 @@ std::vector<Selectable> selected_kinds(const std::string& list) {
     if (at == all.end()) {
       std::vector<std::string_view> known;
       for (const Selectable& kind : all) known.push_back(kind.name);
-      throw base::InputError(fmt::format("no kind is called '{}'; expected some of {}", name,
-                                         fmt::join(known, ", ")));
+      throw base::InputError(
+          fmt::format("no kind is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
     }
     chosen.push_back(*at);
   }
@@ -101,8 +101,8 @@ void select_algorithms(const CaseSelection& selection, const char* fallback,
                        CheckRequest& request) {
   std::map<std::string_view, std::string> shares;
   if (!selection.with.empty() || !selection.kinds.empty()) {
-    shares = shares_of(selection.with.empty() ? "all" : selection.with,
-                       selected_kinds(selection.kinds));
+    shares =
+        shares_of(selection.with.empty() ? "all" : selection.with, selected_kinds(selection.kinds));
   }
   const bool none_named = selection.is_unsaid();
   const auto named = [&](std::string_view kind, const std::string& list) {
@@ -112,8 +112,8 @@ void select_algorithms(const CaseSelection& selection, const char* fallback,
     return none_named ? std::string(fallback) : std::string("none");
   };
   request.narrow = narrow_phases_to_grade(named("pair", selection.pair), request.scalars);
-  request.broad = kinds::select(broad_phases(), kinds::split_names(named("box", selection.box)),
-                                "broad phase");
+  request.broad =
+      kinds::select(broad_phases(), kinds::split_names(named("box", selection.box)), "broad phase");
   request.contestants.clear();
   for (const kinds::Kind* kind : kinds::kinds()) {
     const auto at = selection.others.find(kind);

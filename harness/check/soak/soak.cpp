@@ -7,8 +7,8 @@
 
 #include "harness/base/clock.h"
 #include "harness/base/progress.h"
-#include "harness/check/job_folder.h"
 #include "harness/check/families/family_rows.h"
+#include "harness/check/job_folder.h"
 #include "harness/check/soak/soak_job.h"
 #include "harness/check/soak/soak_rows.h"
 #include "harness/files/text_file.h"

@@ -139,7 +139,8 @@ SoakJobResult do_soak_job(const SoakRequest& request, std::size_t job, oracle::O
   const std::uint64_t first = round * static_cast<std::uint64_t>(cases_a_soak_job);
   SoakJobResult result;
   if (place >= request.regime_jobs()) {
-    const kinds::BatchRange range = {request.seed, first, static_cast<std::size_t>(cases_a_soak_job)};
+    const kinds::BatchRange range = {request.seed, first,
+                                     static_cast<std::size_t>(cases_a_soak_job)};
     const auto family = static_cast<std::uint32_t>(place - request.regime_jobs());
     result.families = count_as_drawn(request, family, round, range);
     return result;

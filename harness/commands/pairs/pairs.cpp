@@ -10,13 +10,13 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/hash.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pairs/contender.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/kinds/selection.h"
 #include "harness/scene/box_frames.h"
 
 namespace touchstone::commands {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
@@ -16,6 +15,7 @@
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_cast.h"
 

@@ -16,13 +16,13 @@
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
 #include "harness/base/table.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/motion/ccd_queries.h"
 #include "harness/files/output_file.h"
+#include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::commands {
@@ -236,7 +236,7 @@ int run_ccd(const CcdOptions& options) {
     throw base::InputError("--kind is missing; expected vertex-face or edge-edge with a file");
   }
   auto entries = kinds::select(ccds(), kinds::split_names(options.algorithms),
-                                  "algorithm of continuous collision");
+                               "algorithm of continuous collision");
   const files::CcdQueries first = files::read_ccd_queries(files.front().file);
   std::vector<files::NamedFile> inputs;
   for (const files::CcdFile& file : files) inputs.push_back({"QUERIES", file.file});

@@ -14,7 +14,6 @@
 #include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/file_text.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
@@ -24,6 +23,7 @@
 #include "harness/files/proofs/mesh_certificates.h"
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/shapes/compound.h"
+#include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::commands {

@@ -10,7 +10,6 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/file_text.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/parts_proofs.h"
@@ -22,6 +21,7 @@
 #include "harness/files/concave/concave_cases.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
 

@@ -10,11 +10,11 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/hash.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/query/query_rows.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::commands {

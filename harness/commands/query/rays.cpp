@@ -13,7 +13,6 @@
 #include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
@@ -24,6 +23,7 @@
 #include "harness/files/output_file.h"
 #include "harness/files/proofs/mesh_certificates.h"
 #include "harness/geometry/mesh.h"
+#include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::commands {
@@ -118,8 +118,7 @@ int verify_ray_proofs(const std::string& file) {
 }
 
 void cast_rays(const RaysOptions& options) {
-  const auto entries =
-      kinds::select(ray_casts(), kinds::split_names(options.cast), "ray cast");
+  const auto entries = kinds::select(ray_casts(), kinds::split_names(options.cast), "ray cast");
   geometry::Mesh read = geometry::read_surface(options.target);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Ray> rays = read_rays(options.rays);

@@ -11,12 +11,12 @@
 #include "algorithms/oracle/rays/exact_scene_ray_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/kinds/selection.h"
 #include "harness/commands/query/proofs.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
 #include "harness/files/proofs/scene_ray_certificates.h"
+#include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 #include "harness/scene/player.h"
 
@@ -128,8 +128,8 @@ void cast_rays_at_scene(const RaysOptions& options) {
   if (options.settings.scalar != Precision::float64) {
     throw base::InputError("--scalar float: rays at scenes are cast in double alone");
   }
-  const auto entries = kinds::select(scene_ray_casts(), kinds::split_names(options.cast),
-                                        "ray cast of scenes");
+  const auto entries =
+      kinds::select(scene_ray_casts(), kinds::split_names(options.cast), "ray cast of scenes");
   const scene::Scene scene = scene::load_scene(options.target);
   const std::vector<SceneBody> bodies = bodies_at(scene, options.frame, options.target);
   const std::vector<Ray> rays = read_rays(options.rays);

@@ -8,12 +8,12 @@
 #include <tuple>
 #include <utility>
 
+#include "harness/files/text_file.h"
 #include "harness/kinds/cast/cast_families.h"
-#include "harness/kinds/cast/cast_sets.h"
-#include "harness/kinds/grading.h"
 #include "harness/kinds/cast/cast_forms.h"
 #include "harness/kinds/cast/cast_grade.h"
-#include "harness/files/text_file.h"
+#include "harness/kinds/cast/cast_sets.h"
+#include "harness/kinds/grading.h"
 #include "harness/process/queries/solve_cast.h"
 
 namespace touchstone::kinds {
@@ -74,8 +74,7 @@ class CastBatch final : public Batch {
     truths_.emplace(cases_);
   }
 
-  std::vector<Graded> ask(const Contestant& contestant, CaseForm form,
-                              double time_limit) override {
+  std::vector<Graded> ask(const Contestant& contestant, CaseForm form, double time_limit) override {
     std::vector<Graded> grades(cases_.size());
     const bool approach = static_cast<StartContact>(contestant.task) == StartContact::approach;
     if (approach && (form == CaseForm::reversed || form == CaseForm::split)) return grades;
@@ -201,22 +200,21 @@ constexpr std::array<std::string_view, 2> cast_tasks = {"counts", "approach"};
 class CastKind final : public Kind {
  public:
   CastKind()
-      : Kind({.name = "cast",
-              .old_name = "cast",
-              .title = "Moving bodies",
-              .contract = "cast",
-              .legend =
-                  "The tolerance is 1e-9 of the size (float: 1e-4), or the algorithm's own; *near* "
-                  "is a hit where the bodies come within it. *Inexact*: a time of impact that is "
-                  "late by more than the bodies move within the tolerance (of those that promise to "
-                  "be in time: 1e-14 of the step), or so early that the bodies are further apart "
-                  "than the tolerance, or a bound that does not hold.",
-              .tasks = cast_tasks,
-              .draw_number = 4}) {}
+      : Kind(
+            {.name = "cast",
+             .old_name = "cast",
+             .title = "Moving bodies",
+             .contract = "cast",
+             .legend =
+                 "The tolerance is 1e-9 of the size (float: 1e-4), or the algorithm's own; *near* "
+                 "is a hit where the bodies come within it. *Inexact*: a time of impact that is "
+                 "late by more than the bodies move within the tolerance (of those that promise to "
+                 "be in time: 1e-14 of the step), or so early that the bodies are further apart "
+                 "than the tolerance, or a bound that does not hold.",
+             .tasks = cast_tasks,
+             .draw_number = 4}) {}
 
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(casts());
-  }
+  std::vector<const AlgorithmInfo*> algorithms() const override { return infos_of(casts()); }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
@@ -241,9 +239,7 @@ class CastKind final : public Kind {
   }
 
  private:
-  std::vector<Family> list_families() const override {
-    return families_of(cast_families());
-  }
+  std::vector<Family> list_families() const override { return families_of(cast_families()); }
 };
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "harness/kinds/exact_forms.h"
 #include "harness/check/families/family_count.h"
 #include "harness/files/cases.h"
+#include "harness/kinds/exact_forms.h"
 
 namespace touchstone::kinds {
 

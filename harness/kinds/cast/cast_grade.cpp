@@ -26,7 +26,8 @@ double cast_tolerance(const CastEntry& entry, std::optional<double> asked, doubl
                       double size) {
   constexpr double usual = 1e-9;  // of the size
   const double unasked = entry.default_tolerance > 0 ? entry.default_tolerance : usual * size;
-  return std::max({asked.value_or(unasked), entry.fixed_tolerance, entry.fixed_share_of_path * path});
+  return std::max(
+      {asked.value_or(unasked), entry.fixed_tolerance, entry.fixed_share_of_path * path});
 }
 
 Graded grade_cast(const CastOutcome& outcome, const CastOutcome& exact, const CastAsked& asked,

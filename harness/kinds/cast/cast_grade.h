@@ -15,7 +15,8 @@ inline constexpr double cast_late = 1e-14;
 
 // The tolerance (metres) by which the answers are judged: what was asked, or the algorithm's own. `path` and `size`
 // are of the bodies, in metres.
-double cast_tolerance(const CastEntry& entry, std::optional<double> asked, double path, double size);
+double cast_tolerance(const CastEntry& entry, std::optional<double> asked, double path,
+                      double size);
 
 // How the case was asked.
 struct CastAsked {

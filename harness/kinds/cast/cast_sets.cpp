@@ -161,8 +161,9 @@ std::vector<files::CastCase> first_cases(const CastInput& input, std::size_t cou
   return cases;
 }
 
-TimedGrade grade(const CastInput& input, const CastEntry& entry, std::optional<double> tolerance,
-                 CastTruths& truths, std::span<const CastOutcome> outcomes) {
+TimedGrade grade_cast_set(const CastInput& input, const CastEntry& entry,
+                          std::optional<double> tolerance, CastTruths& truths,
+                          std::span<const CastOutcome> outcomes) {
   TimedGrade sum;
   for (std::size_t i = 0; i < input.graded.size(); ++i) {
     const CastOutcome &found = outcomes[i], &right = truths.of(i);
@@ -170,16 +171,17 @@ TimedGrade grade(const CastInput& input, const CastEntry& entry, std::optional<d
     const double own = cast_tolerance(entry, tolerance, path, span_of_motion(input.graded[i]));
     sum.add(grade_cast(found, right, {.place = i, .tolerance = own}, entry.in_time, truths),
             static_cast<std::int64_t>(i));
-    if (is_meant(found.status) && found.answer == CastAnswer::hit && right.answer == CastAnswer::hit) {
+    if (is_meant(found.status) && found.answer == CastAnswer::hit &&
+        right.answer == CastAnswer::hit) {
       sum.note_error(std::abs(found.toi - right.toi) * path);
     }
   }
   return sum;
 }
 
-TimedSet make_set(std::size_t kind, Way way, std::size_t count, std::size_t graded,
-                    std::uint64_t seed, std::optional<double> tolerance,
-                    const std::vector<const CastEntry*>& entries) {
+TimedSet make_cast_set(std::size_t kind, Way way, std::size_t count, std::size_t graded,
+                       std::uint64_t seed, std::optional<double> tolerance,
+                       const std::vector<const CastEntry*>& entries) {
   const auto input = std::make_shared<CastInput>();
   base::Random random(seed, static_cast<std::uint64_t>(way) << 8 | kind);
   for (std::size_t i = 0; i < count; ++i) add_pair(*input, kind, way, random);
@@ -204,7 +206,7 @@ TimedSet make_set(std::size_t kind, Way way, std::size_t count, std::size_t grad
       made.origin = entry->info.origin;
       made.approximate = !entry->info.known_defect.empty();
       made.answer = [=] { caster->solve(input->batch(input->first.size()), *outcomes); };
-      made.grade = [=] { return grade(*input, *entry, tolerance, *truths, *outcomes); };
+      made.grade = [=] { return grade_cast_set(*input, *entry, tolerance, *truths, *outcomes); };
       cell.contestants.push_back(std::move(made));
     }
   }
@@ -226,8 +228,8 @@ std::vector<PlannedSet> cast_sets(files::TomlTable& table) {
   for (const std::size_t way : ways) {
     for (const std::size_t shape : shapes) {
       cells.push_back({std::string(way_names[way]), std::string(shape_names[shape]), [=] {
-                         return make_set(shape, static_cast<Way>(way), count, graded, seed,
-                                               tolerance, entries);
+                         return make_cast_set(shape, static_cast<Way>(way), count, graded, seed,
+                                              tolerance, entries);
                        }});
     }
   }

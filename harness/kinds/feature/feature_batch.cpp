@@ -5,23 +5,23 @@
 
 #include "algorithms/oracle/ccd/first_within.h"
 #include "algorithms/oracle/oracle.h"
-#include "harness/kinds/feature/feature_sets.h"
-#include "harness/kinds/grading.h"
-#include "harness/kinds/feature/feature_forms.h"
-#include "harness/kinds/feature/feature_grade.h"
 #include "harness/families/ccd_families.h"
 #include "harness/files/text_file.h"
+#include "harness/kinds/feature/feature_forms.h"
+#include "harness/kinds/feature/feature_grade.h"
+#include "harness/kinds/feature/feature_sets.h"
+#include "harness/kinds/grading.h"
 
 namespace touchstone::kinds {
 namespace {
 
 // A crash costs all queries of a call.
-struct CallAnswer {
+struct FeatureCallAnswer {
   Status status = Status::unsupported;
   std::array<CcdOutcome, queries_of_a_call> outcomes;
 };
 
-struct Call {
+struct FeatureCall {
   Lengths lengths;
   std::vector<std::size_t> places;
   std::vector<CcdQuery> queries;
@@ -80,12 +80,11 @@ class FeatureBatch final : public Batch {
     separated_.resize(queries_.size());
   }
 
-  std::vector<Graded> ask(const Contestant& contestant, CaseForm form,
-                              double time_limit) override {
+  std::vector<Graded> ask(const Contestant& contestant, CaseForm form, double time_limit) override {
     const auto& entry = contestant.of<CcdEntry>();
     std::vector<Graded> grades(queries_.size());
     if (form == CaseForm::split) return ask_halves(contestant, entry, time_limit);
-    std::vector<Call> calls;
+    std::vector<FeatureCall> calls;
     for (std::size_t i = 0; i < queries_.size(); ++i) {
       if (!is_asked(form, range_.first + i)) continue;
       const std::uint64_t index = range_.first + i;
@@ -95,7 +94,7 @@ class FeatureBatch final : public Batch {
     }
     const std::vector<CcdOutcome> outcomes = solve(entry, calls, time_limit);
     std::size_t k = 0;
-    for (const Call& call : calls) {
+    for (const FeatureCall& call : calls) {
       for (const std::size_t i : call.places) {
         const CcdOutcome& outcome = outcomes[k++];
         grades[i] = grade(contestant, i, outcome, form == CaseForm::reversed);
@@ -117,7 +116,8 @@ class FeatureBatch final : public Batch {
     }
     files::write_text(file, text);
     return fmt::format(
-        "touchstone query {} --kind feature --features {} --with exact,{} --tolerance {}{} --out answers.csv",
+        "touchstone query {} --kind feature --features {} --with exact,{} --tolerance {}{} --out "
+        "answers.csv",
         file, to_string(family_.pair), contestant.info->name, lengths.tolerance,
         lengths.separation > 0 ? fmt::format(" --separation {}", lengths.separation) : "");
   }
@@ -142,7 +142,7 @@ class FeatureBatch final : public Batch {
     return truths[i];
   }
 
-  void add(std::vector<Call>& calls, const Contestant& contestant, std::size_t i,
+  void add(std::vector<FeatureCall>& calls, const Contestant& contestant, std::size_t i,
            const CcdQuery& query, CaseForm form) const {
     Lengths lengths = lengths_of(contestant, i);
     // Each has a scale of its own.
@@ -159,14 +159,14 @@ class FeatureBatch final : public Batch {
   }
 
   // The outcomes of all calls, one after the other.
-  std::vector<CcdOutcome> solve(const CcdEntry& entry, const std::vector<Call>& calls,
+  std::vector<CcdOutcome> solve(const CcdEntry& entry, const std::vector<FeatureCall>& calls,
                                 double time_limit) const {
     std::vector<CcdOutcome> outcomes;
     if (calls.empty()) return outcomes;
     const auto solved =
-        process::isolated_answers<CallAnswer>(calls.size(), batch_limits(time_limit), [&] {
+        process::isolated_answers<FeatureCallAnswer>(calls.size(), batch_limits(time_limit), [&] {
           return [&](std::size_t k) {
-            CallAnswer answer;
+            FeatureCallAnswer answer;
             answer.status = Status::ok;
             const std::size_t count = calls[k].queries.size();
             const Lengths& lengths = calls[k].lengths;
@@ -187,9 +187,9 @@ class FeatureBatch final : public Batch {
 
   // A contact is in the first half or in the second.
   std::vector<Graded> ask_halves(const Contestant& contestant, const CcdEntry& entry,
-                                     double time_limit) {
+                                 double time_limit) {
     std::vector<Graded> grades(queries_.size());
-    std::array<std::vector<Call>, 2> calls;
+    std::array<std::vector<FeatureCall>, 2> calls;
     for (std::size_t i = 0; i < queries_.size(); ++i) {
       if (!is_asked(CaseForm::split, range_.first + i)) continue;
       const auto middle = vertices_halfway(queries_[i]);
@@ -200,7 +200,7 @@ class FeatureBatch final : public Batch {
     const auto first = solve(entry, calls[0], time_limit);
     const auto second = solve(entry, calls[1], time_limit);
     std::size_t k = 0;
-    for (const Call& call : calls[0]) {
+    for (const FeatureCall& call : calls[0]) {
       for (const std::size_t i : call.places) {
         const bool is_first = first[k].answer != CcdAnswer::miss;
         CcdOutcome outcome = is_first ? first[k] : second[k];
@@ -235,21 +235,20 @@ constexpr std::array<std::string_view, 2> feature_tasks = {"contact", "separatio
 class FeatureKind final : public Kind {
  public:
   FeatureKind()
-      : Kind({.name = "feature",
-              .old_name = "ccd",
-              .title = "Continuous collision of features",
-              .contract = "continuous collision",
-              .legend =
-                  "The tolerance is 1e-6 of the size or less, unless another is stated; *near* is a "
-                  "hit where the features come within it. *Inexact*: a time of impact that is late "
-                  "by more than 1e-6 of the step, or so early that the features are further apart "
-                  "than the tolerance, or a bound that does not hold.",
-              .tasks = feature_tasks,
-              .draw_number = 5}) {}
+      : Kind(
+            {.name = "feature",
+             .old_name = "ccd",
+             .title = "Continuous collision of features",
+             .contract = "continuous collision",
+             .legend =
+                 "The tolerance is 1e-6 of the size or less, unless another is stated; *near* is a "
+                 "hit where the features come within it. *Inexact*: a time of impact that is late "
+                 "by more than 1e-6 of the step, or so early that the features are further apart "
+                 "than the tolerance, or a bound that does not hold.",
+             .tasks = feature_tasks,
+             .draw_number = 5}) {}
 
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(ccds());
-  }
+  std::vector<const AlgorithmInfo*> algorithms() const override { return infos_of(ccds()); }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
@@ -277,10 +276,8 @@ class FeatureKind final : public Kind {
       list.push_back({.name = family.name, .group = std::string(to_string(family.pair))});
     }
     for (const FeatureAxis& at : feature_axes()) {
-      list.push_back({.name = at.axis + "-" + at.value,
-                      .group = "axes",
-                      .axis = at.axis,
-                      .value = at.value});
+      list.push_back(
+          {.name = at.axis + "-" + at.value, .group = "axes", .axis = at.axis, .value = at.value});
     }
     return list;
   }

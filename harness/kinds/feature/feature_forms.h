@@ -6,8 +6,8 @@
 
 #include "algorithms/ccd.h"
 #include "algorithms/oracle/oracle.h"
-#include "harness/kinds/exact_forms.h"
 #include "harness/check/families/family_count.h"
+#include "harness/kinds/exact_forms.h"
 
 namespace touchstone::kinds {
 

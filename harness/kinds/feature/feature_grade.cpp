@@ -69,8 +69,7 @@ Graded grade_feature(const CcdOutcome& outcome, const oracle::ccd::Impact& exact
     const bool is_false = is_apart(asked, asked.reversed ? 1 - by : by, oracle);
     return with(is_false ? Grade::false_hit : Grade::near);
   }
-  const bool is_inexact =
-      !asked.reversed && is_off(outcome, exact, asked, audits_oracle, oracle);
+  const bool is_inexact = !asked.reversed && is_off(outcome, exact, asked, audits_oracle, oracle);
   return with(is_inexact ? Grade::inexact : Grade::right);
 }
 

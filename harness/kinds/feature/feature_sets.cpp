@@ -20,7 +20,7 @@
 namespace touchstone::kinds {
 namespace {
 
-enum class Family : std::uint8_t {
+enum class FeatureFamily : std::uint8_t {
   crossing,
   clear_miss,
   at_the_end,
@@ -28,7 +28,7 @@ enum class Family : std::uint8_t {
   in_a_plane,
   alike
 };
-constexpr std::array<std::string_view, 6> family_names = {
+constexpr std::array<std::string_view, 6> feature_family_names = {
     "crossing",     "clear miss",  "contact at the end", "contact at a corner",
     "in one plane", "moving alike"};
 constexpr std::array<FeaturePair, 2> feature_pairs = {FeaturePair::vertex_face,
@@ -55,7 +55,7 @@ Vec3d on(const std::array<Vec3d, 4>& at, const Weights& weights, std::size_t fro
   return point;
 }
 
-CcdQuery draw(FeaturePair pair, Family family, base::Random& random) {
+CcdQuery draw_feature_query(FeaturePair pair, FeatureFamily family, base::Random& random) {
   CcdQuery query;
   const auto draw_all = [&](std::array<Vec3d, 4>& at) {
     for (Vec3d& v : at) v = random.in_ball();
@@ -67,25 +67,25 @@ CcdQuery draw(FeaturePair pair, Family family, base::Random& random) {
     for (std::size_t k = 0; k < split; ++k) at[k] += by;
   };
   switch (family) {
-    case Family::crossing: break;
-    case Family::clear_miss: {
+    case FeatureFamily::crossing: break;
+    case FeatureFamily::clear_miss: {
       const Vec3d away = 3 * random.on_sphere();
       move_first(query.start, away);
       move_first(query.end, away);
       break;
     }
-    case Family::at_the_end:
-    case Family::at_a_corner: {
+    case FeatureFamily::at_the_end:
+    case FeatureFamily::at_a_corner: {
       // The two points meet at time 1, up to rounding; at a corner of one of the features.
-      const Weights weights = random_weights(pair, family == Family::at_a_corner, random);
+      const Weights weights = random_weights(pair, family == FeatureFamily::at_a_corner, random);
       move_first(query.end, on(query.end, weights, split, 4) - on(query.end, weights, 0, split));
       move_first(query.start, 3 * random.on_sphere());
       break;
     }
-    case Family::in_a_plane:
+    case FeatureFamily::in_a_plane:
       for (std::size_t k = 0; k < 4; ++k) query.start[k].z() = query.end[k].z() = 0.25;
       break;
-    case Family::alike: {
+    case FeatureFamily::alike: {
       const Vec3d by = random.on_sphere();
       for (std::size_t k = 0; k < 4; ++k) query.end[k] = query.start[k] + by;
       break;
@@ -100,8 +100,8 @@ struct CcdInput {
   std::vector<oracle::ccd::Impact> exact;
 };
 
-TimedGrade grade(const CcdInput& input, const CcdSettings& settings, bool is_oracle,
-                 std::span<const CcdOutcome> outcomes) {
+TimedGrade grade_feature_set(const CcdInput& input, const CcdSettings& settings, bool is_oracle,
+                             std::span<const CcdOutcome> outcomes) {
   TimedGrade sum;
   oracle::Oracle oracle;
   const int first_count = input.pair == FeaturePair::vertex_face ? 1 : 2;
@@ -120,8 +120,8 @@ TimedGrade grade(const CcdInput& input, const CcdSettings& settings, bool is_ora
   return sum;
 }
 
-TimedSet make_set(const std::shared_ptr<CcdInput>& input, const CcdSettings& settings,
-                   const std::vector<const CcdEntry*>& entries) {
+TimedSet make_feature_set(const std::shared_ptr<CcdInput>& input, const CcdSettings& settings,
+                          const std::vector<const CcdEntry*>& entries) {
   const int first_count = input->pair == FeaturePair::vertex_face ? 1 : 2;
   for (const CcdQuery& query : input->queries) {
     input->exact.push_back(impact_of({first_count, query.start, query.end}, settings.separation));
@@ -141,7 +141,7 @@ TimedSet make_set(const std::shared_ptr<CcdInput>& input, const CcdSettings& set
     made.approximate = !entry->info.known_defect.empty();
     made.answer = [=] { solver->solve(input->pair, input->queries, *outcomes); };
     made.grade = [=, is_oracle = entry->info.origin == Origin::oracle] {
-      return grade(*input, settings, is_oracle, *outcomes);
+      return grade_feature_set(*input, settings, is_oracle, *outcomes);
     };
     cell.contestants.push_back(std::move(made));
   }
@@ -177,7 +177,7 @@ std::vector<PlannedSet> feature_sets(files::TomlTable& table, const std::filesys
   std::vector<double> separations =
       listed_numbers(table, "separations", 0, 1e100, "distances in metres");
   if (separations.empty()) separations.push_back(0);
-  const std::vector<std::size_t> families = choices(table, "families", family_names);
+  const std::vector<std::size_t> families = choices(table, "families", feature_family_names);
   const auto entries = selected(table, ccds(), "ccd");
   std::vector<PlannedSet> cells;
   const auto add = [&](const std::string& group, const std::string& name, const auto& make_input) {
@@ -185,18 +185,19 @@ std::vector<PlannedSet> feature_sets(files::TomlTable& table, const std::filesys
       const CcdSettings settings = {.tolerance = tolerance, .separation = separation};
       cells.push_back({group,
                        separation > 0 ? fmt::format("{}, within {}", name, separation) : name,
-                       [=] { return make_set(make_input(), settings, entries); }});
+                       [=] { return make_feature_set(make_input(), settings, entries); }});
     }
   };
   for (const FeaturePair pair : feature_pairs) {
     const std::string group(to_string(pair));
     for (const std::size_t family : families) {
-      add(group, std::string(family_names[family]), [=] {
+      add(group, std::string(feature_family_names[family]), [=] {
         const auto input = std::make_shared<CcdInput>();
         input->pair = pair;
         base::Random random(seed, family << 1 | static_cast<std::size_t>(pair));
         for (std::size_t i = 0; i < count; ++i)
-          input->queries.push_back(draw(pair, static_cast<Family>(family), random));
+          input->queries.push_back(
+              draw_feature_query(pair, static_cast<FeatureFamily>(family), random));
         return input;
       });
     }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "harness/kinds/mesh/mesh_draws.h"
 #include "harness/families/triangle_pairs.h"
+#include "harness/kinds/mesh/mesh_draws.h"
 
 namespace touchstone::kinds {
 namespace {

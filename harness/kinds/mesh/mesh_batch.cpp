@@ -7,12 +7,12 @@
 
 #include "algorithms/core/nearest_float.h"
 #include "harness/base/hash.h"
+#include "harness/files/text_file.h"
 #include "harness/kinds/exact_forms.h"
-#include "harness/kinds/mesh/mesh_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh/mesh_families.h"
 #include "harness/kinds/mesh/mesh_grade.h"
-#include "harness/files/text_file.h"
+#include "harness/kinds/mesh/mesh_sets.h"
 
 namespace touchstone::kinds {
 namespace {
@@ -50,7 +50,7 @@ void change_points(ConcaveBody& body, const auto& change) {
 }
 
 // The bodies as an algorithm in float gets them.
-ConcaveCase rounded(ConcaveCase c) {
+ConcaveCase rounded_case(ConcaveCase c) {
   for (ConcaveBody* body : {&c.a, &c.b}) {
     change_points(*body, [](const Vec3d& v) { return nearest_float(v); });
   }
@@ -63,7 +63,7 @@ ConcaveCase rounded(ConcaveCase c) {
 
 bool is_of_meshes(const ConcaveCase& c) { return c.a.mesh && c.b.mesh; }
 
-ConcaveCase scaled(ConcaveCase c, double scale) {
+ConcaveCase scaled_case(ConcaveCase c, double scale) {
   for (ConcaveBody* body : {&c.a, &c.b}) {
     change_points(*body, [&](const Vec3d& v) { return Vec3d(scale * v); });
   }
@@ -72,7 +72,7 @@ ConcaveCase scaled(ConcaveCase c, double scale) {
   return c;
 }
 
-std::optional<ConcaveCase> moved(ConcaveCase c, const FormNumbers& numbers) {
+std::optional<ConcaveCase> moved_case(ConcaveCase c, const FormNumbers& numbers) {
   for (Pose* pose : {&c.pose_a, &c.pose_b}) {
     pose->rotation = numbers.turn(pose->rotation);
     const auto sum = exact_sum(numbers.turn(pose->translation), numbers.shift);
@@ -93,8 +93,7 @@ class MeshBatch final : public Batch {
     }
   }
 
-  std::vector<Graded> ask(const Contestant& contestant, CaseForm form,
-                              double time_limit) override {
+  std::vector<Graded> ask(const Contestant& contestant, CaseForm form, double time_limit) override {
     const auto& entry = contestant.of<ConcaveEntry>();
     const auto task = static_cast<ConcaveTask>(contestant.task);
     PairedBodies all;
@@ -144,7 +143,7 @@ class MeshBatch final : public Batch {
 
   // The bits that an algorithm in this precision is given.
   static ConcaveCase given(const ConcaveCase& c, Precision scalar) {
-    return scalar == Precision::float64 ? c : rounded(c);
+    return scalar == Precision::float64 ? c : rounded_case(c);
   }
 
   std::optional<ConcaveCase> in_form(const ConcaveCase& c, Precision scalar, CaseForm form,
@@ -161,10 +160,10 @@ class MeshBatch final : public Batch {
       case CaseForm::scaled:
         // Convex shapes keep their sizes.
         if (!is_of_meshes(c)) return std::nullopt;
-        return scaled(given(c, scalar), numbers.scale);
+        return scaled_case(given(c, scalar), numbers.scale);
       case CaseForm::moved:
         if (scalar == Precision::float32) return std::nullopt;
-        return moved(c, numbers);
+        return moved_case(c, numbers);
       default: return std::nullopt;
     }
   }
@@ -190,13 +189,13 @@ class MeshBatch final : public Batch {
     return *known[i];
   }
 
-  Graded grade(const Contestant& contestant, std::size_t i, MeshAnswer answer,
-                   bool swapped, double scale) {
+  Graded grade(const Contestant& contestant, std::size_t i, MeshAnswer answer, bool swapped,
+               double scale) {
     for (double* length : {&answer.distance, &answer.lower, &answer.upper}) *length /= scale;
     const auto task = static_cast<ConcaveTask>(contestant.task);
     const MeshAnswer& exact = truth(i, contestant.scalar, false, swapped);
-    const bool is_measured =
-        task == ConcaveTask::distance && is_meant(answer.status) && answer.answer == Answer::separated;
+    const bool is_measured = task == ConcaveTask::distance && is_meant(answer.status) &&
+                             answer.answer == Answer::separated;
     const MeshAnswer* exact_distance =
         is_measured ? &truth(i, contestant.scalar, true, false) : nullptr;
     const ConcaveCase& c = cases_[i];
@@ -250,9 +249,7 @@ class MeshKind final : public Kind {
   }
 
  private:
-  std::vector<Family> list_families() const override {
-    return families_of(mesh_families());
-  }
+  std::vector<Family> list_families() const override { return families_of(mesh_families()); }
 };
 
 }  // namespace

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "algorithms/core/bounds.h"
-#include "harness/kinds/mesh/mesh_draws.h"
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/families/triangle_pairs.h"
 #include "harness/geometry/shapes/compound.h"
+#include "harness/kinds/mesh/mesh_draws.h"
 
 namespace touchstone::kinds {
 namespace {

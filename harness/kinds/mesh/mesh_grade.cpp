@@ -40,9 +40,8 @@ Graded grade_mesh(ConcaveTask task, const MeshAnswer& answer, const MeshAnswer& 
   if (task == ConcaveTask::distance && !contact) {
     const double margin =
         (scalar == Precision::float64 ? mesh_margin_double : mesh_margin_float) * reach;
-    const bool bounds_hold =
-        std::isnan(answer.lower) ||
-        (answer.lower <= exact_distance->upper && answer.upper >= exact_distance->lower);
+    const bool bounds_hold = std::isnan(answer.lower) || (answer.lower <= exact_distance->upper &&
+                                                          answer.upper >= exact_distance->lower);
     const bool is_near = answer.distance >= exact_distance->lower - margin &&
                          answer.distance <= exact_distance->upper + margin;
     if (!is_near || !bounds_hold) return with(Grade::inexact);

@@ -21,8 +21,9 @@
 namespace touchstone::kinds {
 namespace {
 
-enum class Place : std::uint8_t { gap_10, gap_1, touching, deep };
-constexpr std::array<std::string_view, 4> place_names = {"gap 10 %", "gap 1 %", "touching", "deep"};
+enum class MeshPlace : std::uint8_t { gap_10, gap_1, touching, deep };
+constexpr std::array<std::string_view, 4> mesh_place_names = {"gap 10 %", "gap 1 %", "touching",
+                                                              "deep"};
 constexpr std::array<std::string_view, 3> concave_task_names = {"intersect", "distance",
                                                                 "contacts"};
 // The oracle tests all pairs of triangles of meshes up to this size. The answers of larger ones are those
@@ -41,11 +42,11 @@ struct ConcaveInput {
 };
 
 // The answers of a phase to all pairs.
-struct Answers {
+struct MeshAnswers {
   std::vector<Outcome> outcomes;
   std::vector<std::vector<IndexPair>> lists;  // kept, so that no call allocates
 
-  explicit Answers(std::size_t count) : outcomes(count), lists(count) {}
+  explicit MeshAnswers(std::size_t count) : outcomes(count), lists(count) {}
   void ask(ConcavePhase& phase, ConcaveTask task, const ConcaveInput& input) {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       outcomes[i] = {};
@@ -55,7 +56,7 @@ struct Answers {
   }
   MeshAnswer of(std::size_t i) const {
     const Outcome& outcome = outcomes[i];
-    return {outcome.status, outcome.answer,   outcome.distance,         outcome.lower,
+    return {outcome.status, outcome.answer,  outcome.distance,         outcome.lower,
             outcome.upper,  lists[i].size(), base::pair_hash(lists[i])};
   }
 };
@@ -85,7 +86,7 @@ Approach approach_of(const ConcaveInput& input, const PlacedConcave& a, base::Ra
 }
 
 // Moves b along the way to where the bodies first touch, by bisection, and from there to its place.
-void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Random& random) {
+void place_pair(ConcaveInput& input, MeshPlace place, ConcavePhase& phase, base::Random& random) {
   const PlacedConcave a = placed(0, random);
   PlacedConcave b = placed(input.second(), random);
   const Approach way = approach_of(input, a, random);
@@ -104,22 +105,21 @@ void place_pair(ConcaveInput& input, Place place, ConcavePhase& phase, base::Ran
   // Meshes reach 0.2 % of their size into each other, a small convex body 2 %.
   const double depth = input.second() == 0 ? 0.004 : 0.04;
   switch (place) {
-    case Place::gap_10: at(out + 0.2 * input.size); break;
-    case Place::gap_1: at(out + 0.02 * input.size); break;
-    case Place::touching: at(in - depth * input.size); break;
-    case Place::deep: at(0.5 * in); break;
+    case MeshPlace::gap_10: at(out + 0.2 * input.size); break;
+    case MeshPlace::gap_1: at(out + 0.02 * input.size); break;
+    case MeshPlace::touching: at(in - depth * input.size); break;
+    case MeshPlace::deep: at(0.5 * in); break;
   }
   input.asked.emplace_back(a, b);
 }
 
-TimedGrade grade(const ConcaveInput& input, ConcaveTask task, Precision scalar,
-                 const Answers& answers) {
+TimedGrade grade_mesh_set(const ConcaveInput& input, ConcaveTask task, Precision scalar,
+                          const MeshAnswers& answers) {
   TimedGrade sum;
   for (std::size_t i = 0; i < input.exact.size(); ++i) {
     const auto& [a, b] = input.asked[i];
     const MeshAnswer found = answers.of(i), &right = input.exact[i];
-    const double reach =
-        mesh_reach(input.bodies[a.body], a.pose, input.bodies[b.body], b.pose);
+    const double reach = mesh_reach(input.bodies[a.body], a.pose, input.bodies[b.body], b.pose);
     sum.add(grade_mesh(task, found, right, &right, scalar, reach), static_cast<std::int64_t>(i));
     if (is_meant(found.status) && right.answer == Answer::separated &&
         task == ConcaveTask::distance) {
@@ -130,13 +130,14 @@ TimedGrade grade(const ConcaveInput& input, ConcaveTask task, Precision scalar,
 }
 
 // The bodies of a set. Without a name of a convex shape the mesh meets itself.
-struct Bodies {
+struct MeshBodies {
   std::shared_ptr<const TriangleMesh> mesh;
   std::string_view convex;
 };
 
-TimedSet make_set(const Bodies& bodies, Place place, ConcaveTask task, std::size_t count,
-                       std::uint64_t seed, const std::vector<const ConcaveEntry*>& entries) {
+TimedSet make_mesh_set(const MeshBodies& bodies, MeshPlace place, ConcaveTask task,
+                       std::size_t count, std::uint64_t seed,
+                       const std::vector<const ConcaveEntry*>& entries) {
   const auto input = std::make_shared<ConcaveInput>();
   const auto& mesh = bodies.mesh;
   input->bodies.push_back({mesh, {}});
@@ -157,7 +158,7 @@ TimedSet make_set(const Bodies& bodies, Place place, ConcaveTask task, std::size
   const std::unique_ptr<ConcavePhase> asked =
       make_phase(*find_concave_phase(brute ? "exact" : "part-pairs"), Precision::float64, false);
   asked->bind(input->bodies);
-  Answers truth(count);
+  MeshAnswers truth(count);
   truth.ask(*asked, task, *input);
   for (std::size_t i = 0; i < count; ++i) {
     MeshAnswer& exact = input->exact.emplace_back(truth.of(i));
@@ -173,14 +174,14 @@ TimedSet make_set(const Bodies& bodies, Place place, ConcaveTask task, std::size
       if (!offers(*entry, task, scalar)) continue;
       const std::shared_ptr<ConcavePhase> phase = make_phase(*entry, scalar, false);
       phase->bind(input->bodies);
-      const auto answers = std::make_shared<Answers>(count);
+      const auto answers = std::make_shared<MeshAnswers>(count);
       TimedContestant made;
       made.name = entry->info.name;
       if (entry->scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
       made.origin = entry->info.origin;
       made.approximate = entry->approximate || !entry->info.known_defect.empty();
       made.answer = [=] { answers->ask(*phase, task, *input); };
-      made.grade = [=] { return grade(*input, task, scalar, *answers); };
+      made.grade = [=] { return grade_mesh_set(*input, task, scalar, *answers); };
       cell.contestants.push_back(std::move(made));
     }
   }
@@ -192,16 +193,16 @@ TimedSet make_set(const Bodies& bodies, Place place, ConcaveTask task, std::size
 std::vector<PlannedSet> mesh_sets(files::TomlTable& table, const std::filesystem::path& home) {
   const auto count = static_cast<std::size_t>(table.integer("queries", 6, 100'000, 32));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
-  const std::vector<std::size_t> places = choices(table, "places", place_names);
+  const std::vector<std::size_t> places = choices(table, "places", mesh_place_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", concave_task_names);
   const auto entries = selected(table, concave_phases(), "concave phase");
   std::vector<PlannedSet> cells;
-  const auto add = [&](const std::string& group, const Bodies& bodies, std::size_t task,
+  const auto add = [&](const std::string& group, const MeshBodies& bodies, std::size_t task,
                        std::size_t place) {
     cells.push_back(
-        {group, fmt::format("{}, {}", concave_task_names[task], place_names[place]), [=] {
-           return make_set(bodies, static_cast<Place>(place),
-                                    static_cast<ConcaveTask>(task), count, seed, entries);
+        {group, fmt::format("{}, {}", concave_task_names[task], mesh_place_names[place]), [=] {
+           return make_mesh_set(bodies, static_cast<MeshPlace>(place),
+                                static_cast<ConcaveTask>(task), count, seed, entries);
          }});
   };
   for (const std::string& name : table.texts("meshes", {"torus-2000", "trefoil-10000"})) {
@@ -220,7 +221,7 @@ std::vector<PlannedSet> mesh_sets(files::TomlTable& table, const std::filesystem
       for (const std::size_t task : tasks) {
         for (const std::size_t place : places) {
           if (static_cast<ConcaveTask>(task) == ConcaveTask::distance) continue;
-          if (static_cast<Place>(place) == Place::gap_1) continue;
+          if (static_cast<MeshPlace>(place) == MeshPlace::gap_1) continue;
           add(fmt::format("{} and {}, {} triangles", convex_names[shape], name,
                           mesh->triangles.size()),
               {mesh, convex_names[shape]}, task, place);

@@ -60,8 +60,8 @@ struct SlidingAnswers {
   std::vector<std::vector<PartContact>> contacts;
 };
 
-SlidingInput make_input(std::size_t squares, std::string_view body, std::size_t count,
-                        std::uint64_t seed) {
+SlidingInput make_sliding_input(std::size_t squares, std::string_view body, std::size_t count,
+                                std::uint64_t seed) {
   base::Random random(seed, squares);
   SlidingInput input;
   const Shape shape = convex_shape(body, body_size, random);
@@ -104,7 +104,7 @@ Graded grade_slide(const SlidingInput& input, const SlidingAnswers& answers, std
   return {is_off ? Grade::inexact : Grade::right, true};
 }
 
-TimedGrade grade(const SlidingInput& input, const SlidingAnswers& answers) {
+TimedGrade grade_sliding_set(const SlidingInput& input, const SlidingAnswers& answers) {
   TimedGrade sum;
   for (std::size_t i = 0; i < input.asked.size(); ++i) {
     sum.add(grade_slide(input, answers, i, sum), static_cast<std::int64_t>(i));
@@ -112,8 +112,8 @@ TimedGrade grade(const SlidingInput& input, const SlidingAnswers& answers) {
   return sum;
 }
 
-TimedContestant contestant(const std::shared_ptr<const SlidingInput>& input, const ConcaveEntry& entry,
-                      Precision scalar, bool welds) {
+TimedContestant sliding_contestant(const std::shared_ptr<const SlidingInput>& input,
+                                   const ConcaveEntry& entry, Precision scalar, bool welds) {
   const std::shared_ptr<ConcavePhase> phase = make_phase(entry, scalar, welds);
   phase->bind(input->bodies);
   const auto answers = std::make_shared<SlidingAnswers>();
@@ -136,13 +136,14 @@ TimedContestant contestant(const std::shared_ptr<const SlidingInput>& input, con
       phase->measure(ground, slider, answers->pairs[i], answers->contacts[i]);
     }
   };
-  made.grade = [=] { return grade(*input, *answers); };
+  made.grade = [=] { return grade_sliding_set(*input, *answers); };
   return made;
 }
 
-TimedSet make_set(std::size_t squares, std::string_view body, std::size_t count,
-                       std::uint64_t seed, const std::vector<const ConcaveEntry*>& entries) {
-  const auto input = std::make_shared<const SlidingInput>(make_input(squares, body, count, seed));
+TimedSet make_sliding_set(std::size_t squares, std::string_view body, std::size_t count,
+                          std::uint64_t seed, const std::vector<const ConcaveEntry*>& entries) {
+  const auto input =
+      std::make_shared<const SlidingInput>(make_sliding_input(squares, body, count, seed));
   TimedSet cell;
   cell.queries = cell.graded = static_cast<std::int64_t>(count);
   for (const ConcaveEntry* entry : entries) {
@@ -151,8 +152,8 @@ TimedSet make_set(std::size_t squares, std::string_view body, std::size_t count,
       continue;
     for (const Precision scalar : entry->scalars) {
       if (!offers(*entry, ConcaveTask::contacts, scalar)) continue;
-      cell.contestants.push_back(contestant(input, *entry, scalar, false));
-      if (entry->welds) cell.contestants.push_back(contestant(input, *entry, scalar, true));
+      cell.contestants.push_back(sliding_contestant(input, *entry, scalar, false));
+      if (entry->welds) cell.contestants.push_back(sliding_contestant(input, *entry, scalar, true));
     }
   }
   return cell;
@@ -173,7 +174,7 @@ std::vector<PlannedSet> sliding_sets(files::TomlTable& table) {
       cells.push_back(
           {fmt::format("{} ground, {} triangles", ground_names[ground], 2 * squares * squares),
            std::string(convex_names[body]),
-           [=] { return make_set(squares, convex_names[body], count, seed, entries); }});
+           [=] { return make_sliding_set(squares, convex_names[body], count, seed, entries); }});
     }
   }
   return cells;

@@ -9,10 +9,10 @@
 
 #include "harness/families/tried_points.h"
 #include "harness/files/text_file.h"
-#include "harness/kinds/point/point_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/point/point_grade.h"
+#include "harness/kinds/point/point_sets.h"
 #include "harness/scene/writing/scene_writer.h"
 
 namespace touchstone::kinds {
@@ -27,7 +27,7 @@ const std::vector<families::NamedMesh>& point_meshes(bool is_closed) {
 }
 
 // How far points are from the surface (metres), on the axis.
-const std::vector<AxisValue>& gaps() {
+const std::vector<AxisValue>& point_gaps() {
   static const std::vector<AxisValue> all = decades(0, -17);
   return all;
 }
@@ -38,11 +38,11 @@ auto drawing_points(std::uint32_t number) {
       return tried_point(families::all_point_places[number % point_places], mesh, triangle, draws);
     }
     const std::size_t place = number - 2 * point_places;
-    return families::point_off(gaps()[place].value, mesh, triangle, draws);
+    return families::point_off(point_gaps()[place].value, mesh, triangle, draws);
   };
 }
 
-auto solver_of(const PointQueryEntry& entry, PointTask task) {
+auto point_solver(const PointQueryEntry& entry, PointTask task) {
   return
       [task, query = std::shared_ptr<PointQuery>(entry.make())](
           const TriangleMesh& mesh, std::span<const Vec3d> points, std::span<PointAnswer> answers) {
@@ -59,15 +59,14 @@ class PointBatch final : public Batch {
         points_(point_meshes(is_closed_), point_kind(), number, range, drawing_points(number),
                 [](const Vec3d& point, double scale) { return Vec3d(scale * point); }) {}
 
-  std::vector<Graded> ask(const Contestant& contestant, CaseForm form,
-                              double time_limit) override {
+  std::vector<Graded> ask(const Contestant& contestant, CaseForm form, double time_limit) override {
     const auto& entry = contestant.of<PointQueryEntry>();
     const auto task = static_cast<PointTask>(contestant.task);
     std::vector<Graded> grades(points_.size());
     if (task == PointTask::side && !is_closed_) return grades;
     points_.ask(
         form, time_limit, [&](std::size_t i) { return in_form(i, form); },
-        [&] { return solver_of(entry, task); },
+        [&] { return point_solver(entry, task); },
         [&](std::size_t i, const PointAnswer& answer) {
           const double scale = form == CaseForm::scaled ? points_.numbers(i).scale : 1;
           grades[i] = grade(entry, task, i, answer, scale);
@@ -103,7 +102,7 @@ class PointBatch final : public Batch {
 
   const PointAnswer& truth(std::size_t i, PointTask task) {
     auto& known = truths_[static_cast<std::size_t>(task)];
-    if (known.empty()) known = points_.answers(solver_of(*find_point_query("exact"), task));
+    if (known.empty()) known = points_.answers(point_solver(*find_point_query("exact"), task));
     return known[i];
   }
 
@@ -124,16 +123,17 @@ constexpr std::array<std::string_view, 2> point_tasks = {"closest", "side"};
 class PointKind final : public Kind {
  public:
   PointKind()
-      : Kind({.name = "point",
-              .old_name = "points",
-              .title = "Points",
-              .contract = "point query",
-              .legend =
-                  "A contact is a point inside or on the surface. *Inexact*: inside for on the "
-                  "surface, or a distance that is off by more than 1e-14 of the reach (float: "
-                  "1e-6), which is the greatest distance of the point and the mesh from the origin.",
-              .tasks = point_tasks,
-              .draw_number = 3}) {}
+      : Kind(
+            {.name = "point",
+             .old_name = "points",
+             .title = "Points",
+             .contract = "point query",
+             .legend =
+                 "A contact is a point inside or on the surface. *Inexact*: inside for on the "
+                 "surface, or a distance that is off by more than 1e-14 of the reach (float: "
+                 "1e-6), which is the greatest distance of the point and the mesh from the origin.",
+             .tasks = point_tasks,
+             .draw_number = 3}) {}
 
   std::vector<const AlgorithmInfo*> algorithms() const override {
     return infos_of(point_queries());
@@ -168,7 +168,7 @@ class PointKind final : public Kind {
         list.push_back({.name = prefix + std::string(to_string(place)), .group = "points"});
       }
     }
-    add_axis(list, "point-gap", gaps());
+    add_axis(list, "point-gap", point_gaps());
     return list;
   }
 };

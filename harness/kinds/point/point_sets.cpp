@@ -75,7 +75,7 @@ TimedGrade grade_points(const PointInput& input, PointTask task, Precision scala
 class PointSets {
  public:
   PointSets(std::shared_ptr<const MeshInput> mesh, std::vector<const PointQueryEntry*> entries,
-             std::size_t count, std::uint64_t seed)
+            std::size_t count, std::uint64_t seed)
       : mesh_(std::move(mesh)), entries_(std::move(entries)), count_(count), seed_(seed) {}
 
   TimedSet make(PointPlace place, PointTask task) {

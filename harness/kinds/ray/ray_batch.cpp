@@ -10,11 +10,11 @@
 
 #include "algorithms/core/nearest_float.h"
 #include "harness/families/aimed_rays.h"
-#include "harness/kinds/ray/ray_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/ray/ray_file.h"
 #include "harness/kinds/ray/ray_grade.h"
+#include "harness/kinds/ray/ray_sets.h"
 #include "harness/scene/writing/scene_writer.h"
 
 namespace touchstone::kinds {
@@ -32,7 +32,7 @@ Ray scaled_ray(Ray ray, double scale) {
 }
 
 // From how far rays are cast (metres), on the axis.
-const std::vector<AxisValue>& distances() {
+const std::vector<AxisValue>& ray_distances() {
   static const std::vector<AxisValue> all = decades(0, 15);
   return all;
 }
@@ -44,11 +44,11 @@ auto drawing_rays(std::uint32_t number) {
     if (number < aims) {
       return families::aimed_ray(families::all_ray_aims[number], mesh, triangle, draws);
     }
-    return families::ray_from(distances()[number - aims].value, mesh, triangle, draws);
+    return families::ray_from(ray_distances()[number - aims].value, mesh, triangle, draws);
   };
 }
 
-auto solver_of(const RayCastEntry& entry, RayTask task, Precision scalar) {
+auto ray_solver(const RayCastEntry& entry, RayTask task, Precision scalar) {
   return [task, cast = std::shared_ptr<RayCast>(entry.make({scalar}))](
              const TriangleMesh& mesh, std::span<const Ray> rays, std::span<RayHit> hits) {
     cast->bind(mesh);
@@ -61,14 +61,13 @@ class RayBatch final : public Batch {
   RayBatch(std::uint32_t number, const BatchRange& range)
       : rays_(ray_meshes(), ray_kind(), number, range, drawing_rays(number), scaled_ray) {}
 
-  std::vector<Graded> ask(const Contestant& contestant, CaseForm form,
-                              double time_limit) override {
+  std::vector<Graded> ask(const Contestant& contestant, CaseForm form, double time_limit) override {
     const auto& entry = contestant.of<RayCastEntry>();
     const auto task = static_cast<RayTask>(contestant.task);
     std::vector<Graded> grades(rays_.size());
     rays_.ask(
         form, time_limit, [&](std::size_t i) { return in_form(i, contestant.scalar, form); },
-        [&] { return solver_of(entry, task, contestant.scalar); },
+        [&] { return ray_solver(entry, task, contestant.scalar); },
         [&](std::size_t i, const RayHit& hit) { grades[i] = grade(contestant, entry, i, hit); });
     return grades;
   }
@@ -107,13 +106,13 @@ class RayBatch final : public Batch {
   const RayHit& truth(std::size_t i, Precision scalar) {
     auto& known = truths_[scalar];
     if (known.empty()) {
-      known = rays_.answers(solver_of(*find_ray_cast("exact"), RayTask::closest, scalar));
+      known = rays_.answers(ray_solver(*find_ray_cast("exact"), RayTask::closest, scalar));
     }
     return known[i];
   }
 
   Graded grade(const Contestant& contestant, const RayCastEntry& entry, std::size_t i,
-                   const RayHit& hit) {
+               const RayHit& hit) {
     const double size = rays_.scale(i) / rays_[i].direction.lpNorm<Eigen::Infinity>();
     return grade_ray(static_cast<RayTask>(contestant.task), hit, truth(i, contestant.scalar), entry,
                      contestant.scalar, size);
@@ -128,20 +127,19 @@ constexpr std::array<std::string_view, 2> ray_tasks = {"closest", "any"};
 class RayKind final : public Kind {
  public:
   RayKind()
-      : Kind({.name = "ray",
-              .old_name = "rays",
-              .title = "Rays",
-              .contract = "ray cast",
-              .legend =
-                  "A contact is a hit. *Inexact*: another triangle (of those that promise it), or a "
-                  "length that is off by more than 1e-9 of itself and the mesh's size (float "
-                  "without exact verdicts: 1e-4).",
-              .tasks = ray_tasks,
-              .draw_number = 2}) {}
+      : Kind(
+            {.name = "ray",
+             .old_name = "rays",
+             .title = "Rays",
+             .contract = "ray cast",
+             .legend =
+                 "A contact is a hit. *Inexact*: another triangle (of those that promise it), or a "
+                 "length that is off by more than 1e-9 of itself and the mesh's size (float "
+                 "without exact verdicts: 1e-4).",
+             .tasks = ray_tasks,
+             .draw_number = 2}) {}
 
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(ray_casts());
-  }
+  std::vector<const AlgorithmInfo*> algorithms() const override { return infos_of(ray_casts()); }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
@@ -168,7 +166,7 @@ class RayKind final : public Kind {
     for (const families::RayAim aim : families::all_ray_aims) {
       list.push_back({.name = "rays-" + std::string(to_string(aim)), .group = "rays"});
     }
-    add_axis(list, "ray-distance", distances());
+    add_axis(list, "ray-distance", ray_distances());
     return list;
   }
 };

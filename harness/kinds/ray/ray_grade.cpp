@@ -14,7 +14,8 @@ Graded grade_ray(RayTask task, const RayHit& hit, const RayHit& exact, const Ray
   if (const auto by_verdict = grade_of_verdict(hit.hit, exact.hit)) return with(*by_verdict);
   if (!hit.hit || task == RayTask::any) return with(Grade::right);
   const bool is_exact = scalar == Precision::float64 || entry.exact_verdicts;
-  const double margin = (is_exact ? ray_margin_exact : ray_margin_float) * (std::abs(exact.t) + size);
+  const double margin =
+      (is_exact ? ray_margin_exact : ray_margin_float) * (std::abs(exact.t) + size);
   const bool is_other = entry.exact_verdicts && hit.triangle != exact.triangle;
   if (is_other || !(std::abs(hit.t - exact.t) <= margin)) return with(Grade::inexact);
   return with(Grade::right);

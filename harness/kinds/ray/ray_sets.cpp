@@ -84,8 +84,8 @@ struct RayInput {
   double size = 1;  // metres, half of the mesh's box
 };
 
-TimedGrade grade(const RayInput& input, RayTask task, const RayCastEntry& entry, Precision scalar,
-                 std::span<const RayHit> hits) {
+TimedGrade grade_ray_set(const RayInput& input, RayTask task, const RayCastEntry& entry,
+                         Precision scalar, std::span<const RayHit> hits) {
   TimedGrade sum;
   for (std::size_t i = 0; i < input.exact.size(); ++i) {
     const RayHit &hit = hits[i], &right = input.exact[i];
@@ -102,7 +102,7 @@ TimedGrade grade(const RayInput& input, RayTask task, const RayCastEntry& entry,
 class RaySets {
  public:
   RaySets(std::shared_ptr<const MeshInput> mesh, std::vector<const RayCastEntry*> entries,
-           std::size_t count, std::uint64_t seed)
+          std::size_t count, std::uint64_t seed)
       : mesh_(std::move(mesh)), entries_(std::move(entries)), count_(count), seed_(seed) {}
 
   TimedSet make(Aim aim, RayTask task) {
@@ -141,7 +141,7 @@ class RaySets {
   }
 
   TimedContestant contestant(const std::shared_ptr<const RayInput>& input, RayTask task,
-                        const RayCastEntry& entry, Precision scalar) {
+                             const RayCastEntry& entry, Precision scalar) {
     const std::shared_ptr<RayCast> caster = bound(entry, scalar);
     const auto hits = std::make_shared<std::vector<RayHit>>(input->rays.size());
     TimedContestant made;
@@ -150,7 +150,7 @@ class RaySets {
     made.origin = entry.info.origin;
     made.approximate = !entry.exact_verdicts;
     made.answer = [=] { caster->cast(task, input->rays, *hits); };
-    made.grade = [=, &entry] { return grade(*input, task, entry, scalar, *hits); };
+    made.grade = [=, &entry] { return grade_ray_set(*input, task, entry, scalar, *hits); };
     return made;
   }
 

@@ -9,11 +9,11 @@
 #include <optional>
 #include <utility>
 
+#include "harness/families/ray_scenes.h"
+#include "harness/geometry/shapes/scaled_shape.h"
 #include "harness/kinds/exact_forms.h"
 #include "harness/kinds/grading.h"
-#include "harness/families/ray_scenes.h"
 #include "harness/kinds/ray/ray_file.h"
-#include "harness/geometry/shapes/scaled_shape.h"
 #include "harness/scene/writing/scene_writer.h"
 
 namespace touchstone::kinds {
@@ -21,14 +21,14 @@ namespace {
 
 // So many consecutive cases have one scene.
 constexpr std::uint64_t cases_of_a_scene = 25;
-// Bodies are within so many metres of the origin, apart from half-spaces.
+// SceneBodies are within so many metres of the origin, apart from half-spaces.
 constexpr double reach = 8;
 
-using Bodies = std::vector<SceneBody>;
+using SceneBodies = std::vector<SceneBody>;
 using Hits = std::array<SceneRayHit, cases_of_a_scene>;
 
 // From how far rays are cast (metres), on the axis.
-const std::vector<AxisValue>& distances() {
+const std::vector<AxisValue>& scene_distances() {
   static const std::vector<AxisValue> all = decades(0, 15);
   return all;
 }
@@ -51,7 +51,7 @@ struct RayTruth {
   }
 };
 
-Bodies scaled(Bodies bodies, double scale) {
+SceneBodies scaled_bodies(SceneBodies bodies, double scale) {
   for (SceneBody& placed : bodies) {
     placed.pose.translation *= scale;
     if (placed.body.mesh) {
@@ -67,7 +67,7 @@ Bodies scaled(Bodies bodies, double scale) {
   return bodies;
 }
 
-std::optional<Bodies> moved(Bodies bodies, const FormNumbers& numbers) {
+std::optional<SceneBodies> moved_bodies(SceneBodies bodies, const FormNumbers& numbers) {
   for (SceneBody& placed : bodies) {
     placed.pose.rotation = numbers.turn(placed.pose.rotation);
     const auto sum = exact_sum(numbers.turn(placed.pose.translation), numbers.shift);
@@ -79,7 +79,7 @@ std::optional<Bodies> moved(Bodies bodies, const FormNumbers& numbers) {
 
 // The bodies with their convex parts, but flat ones, times a factor about a point of theirs. Rounding decides
 // rays that pass a convex part within some units of the last place of its size and distance.
-Bodies resized(Bodies bodies, double factor) {
+SceneBodies resized_bodies(SceneBodies bodies, double factor) {
   for (SceneBody& placed : bodies) {
     for (ConvexPart& part : placed.body.parts) {
       Vec3d centre = Vec3d::Zero();
@@ -100,7 +100,7 @@ Bodies resized(Bodies bodies, double factor) {
 }
 
 // Asks the oracle about each body alone.
-std::vector<RayTruth> body_by_body(const Bodies& bodies, std::span<const Ray> rays) {
+std::vector<RayTruth> body_by_body(const SceneBodies& bodies, std::span<const Ray> rays) {
   std::vector<RayTruth> truths(rays.size());
   const auto exact = find_scene_ray_cast("exact")->make();
   std::vector<SceneRayHit> hits(rays.size());
@@ -126,16 +126,15 @@ class SceneRayBatch final : public Batch {
         scenes_.push_back(families::bodies_of(kind, draws));
       }
       auto draws = draws_of(scene_ray_kind(), number, range.seed, range.first + i);
-      const Bodies& bodies = scenes_[scene_of(i)];
+      const SceneBodies& bodies = scenes_[scene_of(i)];
       // Families of the axis come after the others.
-      rays_.push_back(number < drawn
-                          ? families::ray_at(kind, bodies, draws)
-                          : families::ray_from(distances()[number - drawn].value, bodies, draws));
+      rays_.push_back(number < drawn ? families::ray_at(kind, bodies, draws)
+                                     : families::ray_from(scene_distances()[number - drawn].value,
+                                                          bodies, draws));
     }
   }
 
-  std::vector<Graded> ask(const Contestant& contestant, CaseForm form,
-                              double time_limit) override {
+  std::vector<Graded> ask(const Contestant& contestant, CaseForm form, double time_limit) override {
     const auto& entry = contestant.of<SceneRayCastEntry>();
     const auto task = static_cast<RayTask>(contestant.task);
     const std::vector<Call> calls = calls_of(form);
@@ -167,14 +166,14 @@ class SceneRayBatch final : public Batch {
     const std::string scene = stem.string() + ".toml", rays = stem.string() + ".csv";
     scene::write_scene(scene, scenes_[scene_of(place)]);
     write_ray(rays, rays_[place]);
-    return fmt::format("touchstone query {} --in {} --with exact,{} --task {} --out hits.csv",
-                       rays, scene, contestant.info->name, contestant.task_name());
+    return fmt::format("touchstone query {} --in {} --with exact,{} --task {} --out hits.csv", rays,
+                       scene, contestant.info->name, contestant.task_name());
   }
 
  private:
   // A crash costs all cases of a call.
   struct Call {
-    Bodies bodies;
+    SceneBodies bodies;
     std::vector<std::size_t> places;
     std::vector<Ray> rays;
   };
@@ -206,16 +205,16 @@ class SceneRayBatch final : public Batch {
     return calls;
   }
 
-  std::optional<std::pair<Bodies, Ray>> in_form(std::size_t i, CaseForm form) const {
+  std::optional<std::pair<SceneBodies, Ray>> in_form(std::size_t i, CaseForm form) const {
     const FormNumbers numbers(range_.seed, range_.first + i);
     Ray ray = rays_[i];
     if (form == CaseForm::scaled) {
       ray.origin *= numbers.scale;
       ray.direction *= numbers.scale;
-      return std::pair(scaled(scenes_[scene_of(i)], numbers.scale), ray);
+      return std::pair(scaled_bodies(scenes_[scene_of(i)], numbers.scale), ray);
     }
     if (form != CaseForm::moved) return std::nullopt;
-    auto bodies = moved(scenes_[scene_of(i)], numbers);
+    auto bodies = moved_bodies(scenes_[scene_of(i)], numbers);
     const auto origin = exact_sum(numbers.turn(ray.origin), numbers.shift);
     if (!bodies || !origin) return std::nullopt;
     ray.origin = *origin;
@@ -233,7 +232,7 @@ class SceneRayBatch final : public Batch {
     return truths_[i];
   }
 
-  void add_truths(const Bodies& bodies, std::span<const Ray> rays) {
+  void add_truths(const SceneBodies& bodies, std::span<const Ray> rays) {
     for (RayTruth& truth : body_by_body(bodies, rays)) truths_.push_back(std::move(truth));
   }
 
@@ -247,9 +246,9 @@ class SceneRayBatch final : public Batch {
     if (agrees == false) {
       const std::span<const Ray> ray(&rays_[i], 1);
       const double change = 0x1p-46 * (reach + rays_[i].origin.lpNorm<Eigen::Infinity>());
-      const Bodies& bodies = scenes_[scene_of(i)];
-      const auto larger = body_by_body(resized(bodies, 1 + change), ray);
-      const auto smaller = body_by_body(resized(bodies, 1 - std::min(change, 0.5)), ray);
+      const SceneBodies& bodies = scenes_[scene_of(i)];
+      const auto larger = body_by_body(resized_bodies(bodies, 1 + change), ray);
+      const auto smaller = body_by_body(resized_bodies(bodies, 1 - std::min(change, 0.5)), ray);
       agrees = agreement(task, i, hit, larger[0], smaller[0]);
       if (agrees == true) return with(Grade::near);
     }
@@ -276,12 +275,12 @@ class SceneRayBatch final : public Batch {
 
   BatchRange range_;
   std::uint64_t first_scene_;
-  std::vector<Bodies> scenes_;
+  std::vector<SceneBodies> scenes_;
   std::vector<Ray> rays_;
   std::vector<RayTruth> truths_;
 };
 
-constexpr std::array<std::string_view, 2> ray_tasks = {"closest", "any"};
+constexpr std::array<std::string_view, 2> scene_ray_tasks = {"closest", "any"};
 
 class SceneRayKind final : public Kind {
  public:
@@ -295,7 +294,7 @@ class SceneRayKind final : public Kind {
                   "by some units of the last place of their size and distance. *Inexact*: a body "
                   "that the ray does not meet, and for `closest` another one than the first, or a "
                   "length that is off by more than 1e-9 of itself and the scene's size.",
-              .tasks = ray_tasks,
+              .tasks = scene_ray_tasks,
               .draw_number = 6}) {}
 
   std::vector<const AlgorithmInfo*> algorithms() const override {
@@ -326,9 +325,10 @@ class SceneRayKind final : public Kind {
   std::vector<Family> list_families() const override {
     std::vector<Family> list;
     for (const families::RayScene scene : families::all_ray_scenes) {
-      list.push_back({.name = "scene-rays-" + std::string(to_string(scene)), .group = "scene-rays"});
+      list.push_back(
+          {.name = "scene-rays-" + std::string(to_string(scene)), .group = "scene-rays"});
     }
-    add_axis(list, "scene-ray-distance", distances());
+    add_axis(list, "scene-ray-distance", scene_distances());
     return list;
   }
 };

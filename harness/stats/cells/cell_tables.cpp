@@ -30,8 +30,8 @@ std::string table_of(const CellTimes& cell) {
   // Of motion, the pairs that are found to touch stand last, of others the greatest error.
   const bool counts_hits = std::ranges::any_of(
       cell.rows, [](const CellTimeRow& row) { return row.grade.true_hits >= 0; });
-  base::Table table({"algorithm", "ns a query", "95 % interval", "missed", "false hits",
-                     "inexact", "gave up", counts_hits ? "hits" : "greatest error"});
+  base::Table table({"algorithm", "ns a query", "95 % interval", "missed", "false hits", "inexact",
+                     "gave up", counts_hits ? "hits" : "greatest error"});
   std::vector<const CellTimeRow*> rows;
   for (const CellTimeRow& row : cell.rows) rows.push_back(&row);
   std::ranges::stable_sort(rows, [](const CellTimeRow* a, const CellTimeRow* b) {

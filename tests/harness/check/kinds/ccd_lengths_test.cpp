@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "algorithms/oracle/ccd/first_within.h"
-#include "harness/kinds/grading.h"
 #include "harness/families/ccd_families.h"
+#include "harness/kinds/grading.h"
 #include "tests/algorithms/one_in.h"
 
 namespace touchstone {

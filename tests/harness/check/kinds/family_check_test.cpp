@@ -8,13 +8,13 @@
 #include <set>
 
 #include "harness/check/check_run.h"
-#include "harness/kinds/kind.h"
 #include "harness/check/requests/select_cases.h"
 #include "harness/check/soak/soak.h"
 #include "harness/check/soak/soak_text.h"
 #include "harness/files/concave/concave_cases.h"
 #include "harness/files/motion/ccd_queries.h"
 #include "harness/geometry/mesh.h"
+#include "harness/kinds/kind.h"
 #include "harness/scene/scene.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/harness/check/kinds/planted_kinds.h"
@@ -24,8 +24,8 @@
 namespace touchstone {
 namespace {
 
-using kinds::CaseForm;
 using check::FamilyCount;
+using kinds::CaseForm;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -216,7 +216,7 @@ TEST(CaseFamilies, TheExactAnswersAgreeInEveryForm) {
           count.add(grades[i], static_cast<std::int64_t>(i));
         }
         EXPECT_EQ(count.silent() + count.failed, 0) << family->name << " " << exact.name() << " "
-                                                  << to_string(form) << " " << count.first_wrong;
+                                                    << to_string(form) << " " << count.first_wrong;
         asked[form] += count.cases;
         const kinds::Kind* kind = family->kind;
         contacts[kind] += count.contacts;
@@ -228,7 +228,8 @@ TEST(CaseFamilies, TheExactAnswersAgreeInEveryForm) {
     EXPECT_GT(contacts[kind], 20);
     EXPECT_GT(apart[kind], 20);
   }
-  for (const kinds::CaseForm form : kinds::all_case_forms) EXPECT_GT(asked[form], 20) << to_string(form);
+  for (const kinds::CaseForm form : kinds::all_case_forms)
+    EXPECT_GT(asked[form], 20) << to_string(form);
 }
 
 TEST(CaseFamilies, HaveNamesOfTheirOwn) {

@@ -52,8 +52,7 @@ TEST(SceneRayCheck, AnotherBodyOrLengthThanTheFirstIsWrong) {
 TEST(SceneRayCheck, TwoWorkersCountAsOne) {
   const TemporaryFolder folder;
   constexpr std::array scalars = {Precision::float64};
-  check::CheckRequest request =
-      request_of(kinds::scene_ray_kind().contestants({"ours"}, scalars));
+  check::CheckRequest request = request_of(kinds::scene_ray_kind().contestants({"ours"}, scalars));
   request.cases = 50;
   std::array<std::string, 2> counted;
   for (const int workers : {1, 2}) {

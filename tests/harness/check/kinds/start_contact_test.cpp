@@ -8,11 +8,12 @@
 namespace touchstone {
 namespace {
 
+using check::FamilyCount;
 using kinds::CaseForm;
 using kinds::Contestant;
-using check::FamilyCount;
 
-FamilyCount count_of(const char* name, const kinds::Contestant& contestant, kinds::CaseForm form, int cases) {
+FamilyCount count_of(const char* name, const kinds::Contestant& contestant, kinds::CaseForm form,
+                     int cases) {
   FamilyCount count;
   for (const kinds::Family* family : kinds::case_families()) {
     if (family->name != name) continue;
@@ -35,15 +36,17 @@ TEST(StartContact, AWrongVerdictFromATouchIsSeen) {
   const int cases = drawn(160, 40);
   PlantedKinds<Habit::yes> yes;
   yes.cast.approach = true;
-  const FamilyCount all_hits = count_of(
-      "casts-from-touch", cast_of(yes.cast, StartContact::approach), kinds::CaseForm::as_drawn, cases);
+  const FamilyCount all_hits =
+      count_of("casts-from-touch", cast_of(yes.cast, StartContact::approach),
+               kinds::CaseForm::as_drawn, cases);
   EXPECT_EQ(all_hits.near, 0);
   EXPECT_GT(all_hits.false_hits, cases / 3);
   EXPECT_GT(all_hits.right, cases / 20);
   PlantedKinds<Habit::no> no;
   no.cast.approach = true;
-  const FamilyCount all_misses = count_of(
-      "casts-from-touch", cast_of(no.cast, StartContact::approach), kinds::CaseForm::as_drawn, cases);
+  const FamilyCount all_misses =
+      count_of("casts-from-touch", cast_of(no.cast, StartContact::approach),
+               kinds::CaseForm::as_drawn, cases);
   // Some touch later alone, where a hit at the start is wrong too.
   EXPECT_EQ(all_misses.missed, all_hits.right + all_hits.inexact);
   EXPECT_EQ(all_misses.right, all_hits.false_hits);
@@ -52,7 +55,8 @@ TEST(StartContact, AWrongVerdictFromATouchIsSeen) {
 
 TEST(StartContact, OursTellWhatBodiesDoAfterATouch) {
   for (const char* name : {"gjk-ray-cast", "gjk-ray-cast-lanes", "mpr-ray-cast", "exact"}) {
-    for (const kinds::CaseForm form : {kinds::CaseForm::as_drawn, kinds::CaseForm::swapped, kinds::CaseForm::scaled}) {
+    for (const kinds::CaseForm form :
+         {kinds::CaseForm::as_drawn, kinds::CaseForm::swapped, kinds::CaseForm::scaled}) {
       const FamilyCount count =
           count_of("casts-from-touch", cast_of(*find_cast(name), StartContact::approach), form,
                    drawn(160, 40));
