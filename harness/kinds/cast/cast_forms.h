@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "harness/check/families/family_count.h"
 #include "harness/files/cases.h"
+#include "harness/kinds/batch.h"
 #include "harness/kinds/exact_forms.h"
 
 namespace touchstone::kinds {

@@ -6,7 +6,7 @@
 
 #include "algorithms/ccd.h"
 #include "algorithms/oracle/oracle.h"
-#include "harness/check/families/family_count.h"
+#include "harness/kinds/batch.h"
 #include "harness/kinds/exact_forms.h"
 
 namespace touchstone::kinds {

@@ -41,7 +41,7 @@ class Axes : public ::testing::Test {
     request.cells = check::cells_of(list);
     request.cases = cases;
     for (std::size_t cell = 0; cell < request.cells.size(); ++cell) {
-      const check::AxisValue& value = request.cells[cell].value();
+      const kinds::AxisValue& value = request.cells[cell].value();
       if (value.value > greatest) continue;
       SCOPED_TRACE(name + " " + value.name);
       EXPECT_EQ(std::stod(value.name), value.value);
