@@ -154,9 +154,7 @@ bool may_include(const std::string& from, const std::string& to) {
   }
   if (is_contract(from)) return is_contract(to);
   if (from == "algorithms/registry.h") return is_contract(to);
-  if (from == "algorithms/registry.cpp") {
-    return to == "algorithms/registry.h" || to == "algorithms/within_margin.h";
-  }
+  if (from == "algorithms/registry.cpp") return to == "algorithms/registry.h";
   if (is_contract(to)) return true;
   if (in(from, "algorithms/peers")) return in(to, "algorithms/peers") && to.ends_with(".h");
   // Asks the oracle where its doubles prove nothing. What the oracle grades is then its own answer:
