@@ -93,54 +93,6 @@ const Entry* find(std::string_view name) {
 
 }  // namespace registry
 
-// The old names of these.
-inline std::span<const BroadPhaseEntry> broad_phases() {
-  return registry::entries<BroadPhaseEntry>();
-}
-inline const BroadPhaseEntry* find_broad_phase(std::string_view name) {
-  return registry::find<BroadPhaseEntry>(name);
-}
-inline std::span<const NarrowPhaseEntry> narrow_phases() {
-  return registry::entries<NarrowPhaseEntry>();
-}
-inline const NarrowPhaseEntry* find_narrow_phase(std::string_view name) {
-  return registry::find<NarrowPhaseEntry>(name);
-}
-inline std::span<const ManifoldEntry> contact_manifolds() {
-  return registry::entries<ManifoldEntry>();
-}
-inline const ManifoldEntry* find_contact_manifold(std::string_view name) {
-  return registry::find<ManifoldEntry>(name);
-}
-inline std::span<const RayCastEntry> ray_casts() { return registry::entries<RayCastEntry>(); }
-inline const RayCastEntry* find_ray_cast(std::string_view name) {
-  return registry::find<RayCastEntry>(name);
-}
-inline std::span<const SceneRayCastEntry> scene_ray_casts() {
-  return registry::entries<SceneRayCastEntry>();
-}
-inline const SceneRayCastEntry* find_scene_ray_cast(std::string_view name) {
-  return registry::find<SceneRayCastEntry>(name);
-}
-inline std::span<const PointQueryEntry> point_queries() {
-  return registry::entries<PointQueryEntry>();
-}
-inline const PointQueryEntry* find_point_query(std::string_view name) {
-  return registry::find<PointQueryEntry>(name);
-}
-inline std::span<const MidPhaseEntry> mid_phases() { return registry::entries<MidPhaseEntry>(); }
-inline const MidPhaseEntry* find_mid_phase(std::string_view name) {
-  return registry::find<MidPhaseEntry>(name);
-}
-inline std::span<const ConcaveEntry> concave_phases() { return registry::entries<ConcaveEntry>(); }
-inline const ConcaveEntry* find_concave_phase(std::string_view name) {
-  return registry::find<ConcaveEntry>(name);
-}
-inline std::span<const CastEntry> casts() { return registry::entries<CastEntry>(); }
-inline const CastEntry* find_cast(std::string_view name) { return registry::find<CastEntry>(name); }
-inline std::span<const CcdEntry> ccds() { return registry::entries<CcdEntry>(); }
-inline const CcdEntry* find_ccd(std::string_view name) { return registry::find<CcdEntry>(name); }
-
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);
 bool offers(const NarrowPhaseEntry& entry, Precision scalar);

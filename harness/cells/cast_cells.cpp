@@ -185,7 +185,7 @@ Cell make_cast_cell(std::size_t kind, Way way, std::size_t count, std::size_t gr
   const ShapeKind shape = input->shapes.front().kind;
   const bool turns = radians(way) > 0;
   input->exact.resize(std::min(graded, count));
-  const std::unique_ptr<Cast> oracle = find_cast("exact")->make({});
+  const std::unique_ptr<Cast> oracle = registry::find<CastEntry>("exact")->make({});
   oracle->bind(input->shapes);
   oracle->solve(input->batch(input->exact.size()), input->exact);
   Cell cell;
@@ -222,7 +222,7 @@ std::vector<PlannedCell> cast_cells(files::TomlTable& table,
   if (table.has("tolerance")) tolerance = table.number("tolerance", files::positive);
   const std::vector<std::size_t> ways = choices(table, "ways", way_names);
   const std::vector<std::size_t> shapes = choices(table, "shapes", shape_names);
-  const auto entries = selected(table, casts(), "cast");
+  const auto entries = selected(table, registry::entries<CastEntry>(), "cast");
   std::vector<PlannedCell> cells;
   for (const std::size_t way : ways) {
     for (const std::size_t shape : shapes) {

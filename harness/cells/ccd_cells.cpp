@@ -124,7 +124,8 @@ Grade grade(const CcdInput& input, std::span<const CcdOutcome> outcomes) {
 Cell make_ccd_cell(const std::shared_ptr<CcdInput>& input, const CcdSettings& settings,
                    const std::vector<const CcdEntry*>& entries) {
   input->exact.resize(input->queries.size());
-  find_ccd("exact")->make(settings)->solve(input->pair, input->queries, input->exact);
+  registry::find<CcdEntry>("exact")->make(settings)->solve(input->pair, input->queries,
+                                                           input->exact);
   Cell cell;
   cell.queries = cell.graded = std::ssize(input->queries);
   for (const CcdEntry* entry : entries) {
@@ -177,7 +178,7 @@ std::vector<PlannedCell> ccd_cells(files::TomlTable& table, const std::filesyste
       listed_numbers(table, "separations", 0, 1e100, "distances in metres");
   if (separations.empty()) separations.push_back(0);
   const std::vector<std::size_t> families = choices(table, "families", family_names);
-  const auto entries = selected(table, ccds(), "ccd");
+  const auto entries = selected(table, registry::entries<CcdEntry>(), "ccd");
   std::vector<PlannedCell> cells;
   const auto add = [&](const std::string& group, const std::string& name, const auto& make_input) {
     for (const double separation : separations) {

@@ -157,14 +157,14 @@ Cell make_concave_cell(const Bodies& bodies, Place place, ConcaveTask task, std:
     input->bodies.push_back({nullptr, {{convex_shape(bodies.convex, input->size, shape), {}, 0}}});
   }
   const std::unique_ptr<ConcavePhase> placing =
-      make_phase(*find_concave_phase("fused"), Precision::float64, false);
+      make_phase(*registry::find<ConcaveEntry>("fused"), Precision::float64, false);
   placing->bind(input->bodies);
   base::Random random(seed, static_cast<std::uint64_t>(place));
   for (std::size_t i = 0; i < count; ++i) place_pair(*input, place, *placing, random);
 
   const bool brute = mesh->triangles.size() <= most_exact_triangles;
-  const std::unique_ptr<ConcavePhase> oracle =
-      make_phase(*find_concave_phase(brute ? "exact" : "part-pairs"), Precision::float64, false);
+  const std::unique_ptr<ConcavePhase> oracle = make_phase(
+      *registry::find<ConcaveEntry>(brute ? "exact" : "part-pairs"), Precision::float64, false);
   oracle->bind(input->bodies);
   Answers truth(count);
   truth.ask(*oracle, task, *input);
@@ -201,7 +201,7 @@ std::vector<PlannedCell> concave_cells(files::TomlTable& table, const std::files
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> places = choices(table, "places", place_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", concave_task_names);
-  const auto entries = selected(table, concave_phases(), "concave phase");
+  const auto entries = selected(table, registry::entries<ConcaveEntry>(), "concave phase");
   std::vector<PlannedCell> cells;
   const auto add = [&](const std::string& group, const Bodies& bodies, std::size_t task,
                        std::size_t place) {

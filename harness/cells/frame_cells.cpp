@@ -261,7 +261,7 @@ std::vector<PlannedCell> frame_cells(files::TomlTable& table, const std::filesys
   const std::vector<LoopSource> sources = read_sources(table, home);
   const std::vector<std::int64_t> threads = table.integers("threads", 1, 1024, 1);
   const std::vector<std::size_t> questions = choices(table, "asks", question_names);
-  const auto entries = selected(table, broad_phases(), "broad phase");
+  const auto entries = selected(table, registry::entries<BroadPhaseEntry>(), "broad phase");
   const auto last = std::make_shared<LastLoop>();
   std::vector<PlannedCell> cells;
   for (std::size_t i = 0; i < sources.size(); ++i) {

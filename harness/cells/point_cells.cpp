@@ -90,7 +90,7 @@ class PointCells {
     input->points = make_points(*mesh_, place, count_, seed_);
     input->exact.resize(count_);
     input->size = base::length(mesh_->high - mesh_->low);
-    bound(*find_point_query("exact"))->query(task, input->points, input->exact);
+    bound(*registry::find<PointQueryEntry>("exact"))->query(task, input->points, input->exact);
     Cell cell;
     cell.queries = cell.graded = static_cast<std::int64_t>(count_);
     for (const PointQueryEntry* entry : entries_) {
@@ -133,7 +133,7 @@ std::vector<PlannedCell> point_cells(files::TomlTable& table, const std::filesys
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> places = choices(table, "points", point_place_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", point_task_names);
-  const auto entries = selected(table, point_queries(), "point query");
+  const auto entries = selected(table, registry::entries<PointQueryEntry>(), "point query");
   const bool asks_side = std::ranges::count(tasks, std::size_t{1}) > 0;
   std::vector<PlannedCell> cells;
   for (const auto& mesh :

@@ -39,38 +39,38 @@ std::string joined(const std::vector<Enumeration>& values) {
 
 std::vector<Listed> all_algorithms() {
   std::vector<Listed> all;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     all.push_back({&entry.info, "broad", "pairs", std::string(to_string(Precision::float32))});
   }
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     all.push_back(
         {&entry.info, "narrow", joined(entry.tasks), joined(entry.scalars), entry.tolerance});
   }
-  for (const ManifoldEntry& entry : contact_manifolds()) {
+  for (const ManifoldEntry& entry : registry::entries<ManifoldEntry>()) {
     all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});
   }
-  for (const RayCastEntry& entry : ray_casts()) {
+  for (const RayCastEntry& entry : registry::entries<RayCastEntry>()) {
     all.push_back({&entry.info, "ray", joined(entry.tasks), joined(entry.scalars)});
   }
-  for (const SceneRayCastEntry& entry : scene_ray_casts()) {
+  for (const SceneRayCastEntry& entry : registry::entries<SceneRayCastEntry>()) {
     all.push_back({&entry.info, "scene-ray", joined(entry.tasks),
                    std::string(to_string(Precision::float64))});
   }
-  for (const PointQueryEntry& entry : point_queries()) {
+  for (const PointQueryEntry& entry : registry::entries<PointQueryEntry>()) {
     all.push_back(
         {&entry.info, "point", joined(entry.tasks), std::string(to_string(entry.scalar))});
   }
-  for (const MidPhaseEntry& entry : mid_phases()) {
+  for (const MidPhaseEntry& entry : registry::entries<MidPhaseEntry>()) {
     all.push_back({&entry.info, "mid", "pairs", std::string(to_string(Precision::float32))});
   }
-  for (const ConcaveEntry& entry : concave_phases()) {
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     all.push_back({&entry.info, "concave", joined(entry.tasks), joined(entry.scalars)});
   }
-  for (const CastEntry& entry : casts()) {
+  for (const CastEntry& entry : registry::entries<CastEntry>()) {
     all.push_back(
         {&entry.info, "cast", entry.rotation ? "linear;rigid" : "linear", joined(entry.scalars)});
   }
-  for (const CcdEntry& entry : ccds()) {
+  for (const CcdEntry& entry : registry::entries<CcdEntry>()) {
     all.push_back(
         {&entry.info, "ccd", "vertex-face;edge-edge", std::string(to_string(Precision::float64))});
   }

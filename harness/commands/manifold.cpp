@@ -186,8 +186,9 @@ std::string page_text(const ManifoldOptions& options, const grade::ManifoldTally
 }
 
 int manifold(const ManifoldOptions& options) {
-  const auto entries = campaign::select(
-      contact_manifolds(), campaign::split_names(options.algorithms), "contact manifold");
+  const auto entries =
+      campaign::select(registry::entries<ManifoldEntry>(),
+                       campaign::split_names(options.algorithms), "contact manifold");
   if (options.out.empty() && !options.grade) {
     throw base::InputError("nothing is asked for; expected --out FILE or --grade, or both");
   }

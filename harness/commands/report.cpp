@@ -71,8 +71,8 @@ files::OrderedJson origins() {
   const auto add = [&](const auto& entries) {
     for (const auto& entry : entries) names[entry.info.name] = to_string(entry.info.origin);
   };
-  add(broad_phases());
-  add(narrow_phases());
+  add(registry::entries<BroadPhaseEntry>());
+  add(registry::entries<NarrowPhaseEntry>());
   return names;
 }
 
@@ -82,10 +82,10 @@ report::RecordingRequest recording_request(const ReportOptions& options) {
   request.overrides = options.overrides;
   request.most_frames = options.frames;
   request.time_limit = options.time_limit;
-  request.narrow =
-      campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase");
-  request.broad =
-      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
+  request.narrow = campaign::select(registry::entries<NarrowPhaseEntry>(),
+                                    campaign::split_names(options.narrow), "narrow phase");
+  request.broad = campaign::select(registry::entries<BroadPhaseEntry>(),
+                                   campaign::split_names(options.broad), "broad phase");
   return request;
 }
 

@@ -66,10 +66,11 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   group.boxes = options.boxes;
   group.threads = options.threads;
   group.rebuild = options.rebuild;
-  group.broad =
-      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
+  group.broad = campaign::select(registry::entries<BroadPhaseEntry>(),
+                                 campaign::split_names(options.broad), "broad phase");
   for (const NarrowPhaseEntry* entry :
-       campaign::select(narrow_phases(), campaign::split_names(options.narrow), "narrow phase")) {
+       campaign::select(registry::entries<NarrowPhaseEntry>(),
+                        campaign::split_names(options.narrow), "narrow phase")) {
     for (const Precision scalar : options.scalars) {
       if (!offers(*entry, scalar)) continue;
       NarrowPhaseSettings settings{.scalar = scalar};
@@ -80,8 +81,10 @@ campaign::Campaign campaign_of(const RunOptions& options) {
     }
   }
   group.concave = measure::concave_choices(
-      campaign::select(concave_phases(), campaign::split_names(options.concave), "concave phase"),
-      campaign::select(mid_phases(), campaign::split_names(options.mids), "mid-phase"),
+      campaign::select(registry::entries<ConcaveEntry>(), campaign::split_names(options.concave),
+                       "concave phase"),
+      campaign::select(registry::entries<MidPhaseEntry>(), campaign::split_names(options.mids),
+                       "mid-phase"),
       options.scalars);
   group.tasks = options.tasks;
   group.pairing = options.product ? campaign::Pairing::product : campaign::Pairing::separate;

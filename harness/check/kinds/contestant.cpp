@@ -102,13 +102,21 @@ std::vector<Contestant> contestants(CaseKind kind, const std::vector<std::string
                                     std::span<const Precision> scalars) {
   std::vector<Contestant> all;
   switch (kind) {
-    case CaseKind::concave: add(all, concave_phases(), "concave phase", names, scalars); break;
-    case CaseKind::rays: add(all, ray_casts(), "ray cast", names, scalars); break;
-    case CaseKind::points: add(all, point_queries(), "point query", names, scalars); break;
-    case CaseKind::cast: add(all, casts(), "cast", names, scalars); break;
-    case CaseKind::ccd: add(all, ccds(), "continuous collision", names, scalars); break;
+    case CaseKind::concave:
+      add(all, registry::entries<ConcaveEntry>(), "concave phase", names, scalars);
+      break;
+    case CaseKind::rays:
+      add(all, registry::entries<RayCastEntry>(), "ray cast", names, scalars);
+      break;
+    case CaseKind::points:
+      add(all, registry::entries<PointQueryEntry>(), "point query", names, scalars);
+      break;
+    case CaseKind::cast: add(all, registry::entries<CastEntry>(), "cast", names, scalars); break;
+    case CaseKind::ccd:
+      add(all, registry::entries<CcdEntry>(), "continuous collision", names, scalars);
+      break;
     case CaseKind::scene_rays:
-      add(all, scene_ray_casts(), "ray cast of scenes", names, scalars);
+      add(all, registry::entries<SceneRayCastEntry>(), "ray cast of scenes", names, scalars);
       break;
   }
   return all;

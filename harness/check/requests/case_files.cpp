@@ -74,7 +74,8 @@ void expect_algorithms(files::TomlTable& table, const CaseSelection& selection,
   expect("narrow", selection.narrow,
          [&](const auto& list) { narrow_phases_to_grade(list, request.scalars); });
   expect("broad", selection.broad, [](const auto& list) {
-    campaign::select(broad_phases(), campaign::split_names(list), "broad phase");
+    campaign::select(registry::entries<BroadPhaseEntry>(), campaign::split_names(list),
+                     "broad phase");
   });
   for (const CaseKind kind : all_case_kinds) {
     expect(

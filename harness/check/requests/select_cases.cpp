@@ -41,8 +41,8 @@ void select_algorithms(const CaseSelection& selection, const char* fallback,
     return !list.empty() ? list : none_named ? std::string(fallback) : std::string("none");
   };
   request.narrow = narrow_phases_to_grade(named(selection.narrow), request.scalars);
-  request.broad = campaign::select(broad_phases(), campaign::split_names(named(selection.broad)),
-                                   "broad phase");
+  request.broad = campaign::select(registry::entries<BroadPhaseEntry>(),
+                                   campaign::split_names(named(selection.broad)), "broad phase");
   request.contestants.clear();
   for (const CaseKind kind : all_case_kinds) {
     const std::string list = named(selection.others[static_cast<std::size_t>(kind)]);

@@ -103,8 +103,8 @@ std::vector<char> read_resting(const std::string& file,
 }
 
 void pairs(const PairsOptions& options) {
-  const auto entries =
-      campaign::select(broad_phases(), campaign::split_names(options.broad), "broad phase");
+  const auto entries = campaign::select(registry::entries<BroadPhaseEntry>(),
+                                        campaign::split_names(options.broad), "broad phase");
   const std::vector<scene::BoxFrame> frames = scene::read_box_frames(options.file);
   const std::vector<char> is_resting =
       options.resting.empty() ? std::vector<char>{} : read_resting(options.resting, frames);

@@ -235,8 +235,9 @@ int run_ccd(const CcdOptions& options) {
   } else {
     throw base::InputError("--kind is missing; expected vertex-face or edge-edge with a file");
   }
-  auto entries = campaign::select(ccds(), campaign::split_names(options.algorithms),
-                                  "algorithm of continuous collision");
+  auto entries =
+      campaign::select(registry::entries<CcdEntry>(), campaign::split_names(options.algorithms),
+                       "algorithm of continuous collision");
   const files::CcdQueries first = files::read_ccd_queries(files.front().file);
   std::vector<files::NamedFile> inputs;
   for (const files::CcdFile& file : files) inputs.push_back({"QUERIES", file.file});

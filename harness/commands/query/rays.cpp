@@ -118,8 +118,8 @@ int verify_ray_proofs(const std::string& file) {
 }
 
 void cast_rays(const RaysOptions& options) {
-  const auto entries =
-      campaign::select(ray_casts(), campaign::split_names(options.cast), "ray cast");
+  const auto entries = campaign::select(registry::entries<RayCastEntry>(),
+                                        campaign::split_names(options.cast), "ray cast");
   geometry::Mesh read = geometry::read_surface(options.target);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Ray> rays = read_rays(options.rays);

@@ -178,7 +178,7 @@ TEST_P(LongHistories, AreFollowed) {
 std::vector<const BroadPhaseEntry*> keepers() {
   std::vector<const BroadPhaseEntry*> list;
   for (const char* name : {"incremental-sweep-and-prune", "kd-tree"}) {
-    list.push_back(find_broad_phase(name));
+    list.push_back(registry::find<BroadPhaseEntry>(name));
   }
   return list;
 }

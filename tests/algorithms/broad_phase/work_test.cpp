@@ -20,7 +20,7 @@ struct Counted {
 
 Counted count(const std::string& name, std::span<const Aabb> boxes, int width = 1) {
   Executor executor(width);
-  const auto algorithm = find_broad_phase(name)->make(executor);
+  const auto algorithm = registry::find<BroadPhaseEntry>(name)->make(executor);
   PairSink sink;
   algorithm->build(boxes);
   EXPECT_EQ(algorithm->find_pairs(sink), Status::ok);
@@ -33,7 +33,7 @@ auto numbers(const BroadPhaseWork& work) {
 
 std::vector<const BroadPhaseEntry*> ours() {
   std::vector<const BroadPhaseEntry*> list;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin == Origin::ours) list.push_back(&entry);
   }
   return list;
@@ -102,7 +102,8 @@ TEST_F(Work, SweepsByHand) {
 
 TEST_F(Work, KeptEndPointsAreCountedAsTheyStand) {
   Executor executor(1);
-  const auto algorithm = find_broad_phase("incremental-sweep-and-prune")->make(executor);
+  const auto algorithm =
+      registry::find<BroadPhaseEntry>("incremental-sweep-and-prune")->make(executor);
   PairSink sink;
   std::vector<Aabb> boxes = row_of_cubes(20);
   algorithm->build(boxes);

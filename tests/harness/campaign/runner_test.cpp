@@ -139,7 +139,7 @@ TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
   for (const record::RawRow& row : result.findings.rows()) {
     EXPECT_EQ(row.bodies, 120);
     if (row.kind != record::RowKind::check || row.phase != record::Phase::find_pairs) continue;
-    const BroadPhaseEntry* const entry = find_broad_phase(row.broad);
+    const BroadPhaseEntry* const entry = registry::find<BroadPhaseEntry>(row.broad);
     if (!entry->info.known_defect.empty()) continue;
     hashes[row.frame].insert(row.pair_hash);
     found_by[row.frame].insert(row.broad);

@@ -29,16 +29,16 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
   const auto expect_all = [&](const std::string& kind, const auto& entries) {
     for (const auto& entry : entries) infos[{kind, entry.info.name}] = &entry.info;
   };
-  expect_all("broad", broad_phases());
-  expect_all("narrow", narrow_phases());
-  expect_all("manifold", contact_manifolds());
-  expect_all("ray", ray_casts());
-  expect_all("scene-ray", scene_ray_casts());
-  expect_all("point", point_queries());
-  expect_all("mid", mid_phases());
-  expect_all("concave", concave_phases());
-  expect_all("cast", casts());
-  expect_all("ccd", ccds());
+  expect_all("broad", registry::entries<BroadPhaseEntry>());
+  expect_all("narrow", registry::entries<NarrowPhaseEntry>());
+  expect_all("manifold", registry::entries<ManifoldEntry>());
+  expect_all("ray", registry::entries<RayCastEntry>());
+  expect_all("scene-ray", registry::entries<SceneRayCastEntry>());
+  expect_all("point", registry::entries<PointQueryEntry>());
+  expect_all("mid", registry::entries<MidPhaseEntry>());
+  expect_all("concave", registry::entries<ConcaveEntry>());
+  expect_all("cast", registry::entries<CastEntry>());
+  expect_all("ccd", registry::entries<CcdEntry>());
   ASSERT_EQ(rows.size(), infos.size());
   std::set<std::pair<std::string, std::string>> names;
   for (const auto& row : rows) {
@@ -65,26 +65,27 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
 TEST(ListCommand, TableNamesEveryAlgorithm) {
   const Ran ran = run_program("list");
   EXPECT_EQ(ran.status, 0);
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
     if (!is_built(entry.info)) {
       EXPECT_THAT(ran.text, HasSubstr("not built, because " + entry.info.reason));
     }
   }
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
     if (!entry.tolerance.empty()) {
       EXPECT_THAT(ran.text, HasSubstr("tolerance: " + entry.tolerance));
     }
   }
-  for (const ManifoldEntry& entry : contact_manifolds()) {
+  for (const ManifoldEntry& entry : registry::entries<ManifoldEntry>()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
   }
-  for (const RayCastEntry& entry : ray_casts()) {
+  for (const RayCastEntry& entry : registry::entries<RayCastEntry>()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
   }
-  for (const CastEntry& entry : casts()) EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
-  for (const ConcaveEntry& entry : concave_phases()) {
+  for (const CastEntry& entry : registry::entries<CastEntry>())
+    EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
   }
 }

@@ -155,9 +155,9 @@ class ConcaveBlock final : public CaseBlock {
 
  private:
   static ConcaveSettings settings(Precision scalar) {
-    return {.scalar = scalar, .mid_phase = find_mid_phase("wide-bvh")->make, .narrow_phase = [] {
-              return find_narrow_phase("certified")->make({});
-            }};
+    return {.scalar = scalar,
+            .mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make,
+            .narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); }};
   }
 
   // The bits that an algorithm in this precision is given.
@@ -200,7 +200,7 @@ class ConcaveBlock final : public CaseBlock {
         std::swap(c.pose_a, c.pose_b);
       }
       pair.add(c);
-      const auto exact = find_concave_phase("exact")->make(settings(Precision::float64));
+      const auto exact = registry::find<ConcaveEntry>("exact")->make(settings(Precision::float64));
       exact->bind(pair.bodies);
       known[i] =
           answer_of(*exact, distance ? ConcaveTask::distance : ConcaveTask::contacts, pair, 0);

@@ -98,7 +98,8 @@ class PointBlock final : public CaseBlock {
 
   const PointAnswer& truth(std::size_t i, PointTask task) {
     auto& known = truths_[static_cast<std::size_t>(task)];
-    if (known.empty()) known = points_.answers(solver_of(*find_point_query("exact"), task));
+    if (known.empty())
+      known = points_.answers(solver_of(*registry::find<PointQueryEntry>("exact"), task));
     return known[i];
   }
 

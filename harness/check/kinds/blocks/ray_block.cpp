@@ -99,7 +99,8 @@ class RayBlock final : public CaseBlock {
   const RayHit& truth(std::size_t i, Precision scalar) {
     auto& known = truths_[scalar];
     if (known.empty()) {
-      known = rays_.answers(solver_of(*find_ray_cast("exact"), RayTask::closest, scalar));
+      known = rays_.answers(
+          solver_of(*registry::find<RayCastEntry>("exact"), RayTask::closest, scalar));
     }
     return known[i];
   }

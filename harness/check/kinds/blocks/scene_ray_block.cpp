@@ -96,7 +96,7 @@ Bodies resized(Bodies bodies, double factor) {
 // Asks the oracle about each body alone.
 std::vector<RayTruth> body_by_body(const Bodies& bodies, std::span<const Ray> rays) {
   std::vector<RayTruth> truths(rays.size());
-  const auto exact = find_scene_ray_cast("exact")->make();
+  const auto exact = registry::find<SceneRayCastEntry>("exact")->make();
   std::vector<SceneRayHit> hits(rays.size());
   for (const SceneBody& body : bodies) {
     exact->bind({&body, 1});

@@ -124,7 +124,7 @@ class AutomaticChoice : public testing::TestWithParam<bool> {
 
   Random random_{17};
   Executor executor_{1};
-  std::unique_ptr<BroadPhase> algorithm_ = find_broad_phase("auto")->make(executor_);
+  std::unique_ptr<BroadPhase> algorithm_ = registry::find<BroadPhaseEntry>("auto")->make(executor_);
   std::vector<Aabb> boxes_;
   Ids moved_;
   PairSink sink_, ended_;

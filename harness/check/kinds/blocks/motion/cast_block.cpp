@@ -174,8 +174,8 @@ class CastBlock final : public CaseBlock {
     if (!is_silent || !rounds(cases_[i], form)) return graded;
     CastCallAnswer answer;
     const FormNumbers numbers(range_.seed, range_.first + i);
-    solve_call(*find_cast("exact"), {}, {0, {i}, {parts_in_form(cases_[i], numbers, form)}},
-               answer);
+    solve_call(*registry::find<CastEntry>("exact"), {},
+               {0, {i}, {parts_in_form(cases_[i], numbers, form)}}, answer);
     return grade(contestant, i, outcome, form, answer.outcomes[0]);
   }
 

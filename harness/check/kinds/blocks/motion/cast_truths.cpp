@@ -39,7 +39,8 @@ CastTruths::CastTruths(std::span<const CastCase> cases)
 }
 
 const CastOutcome& CastTruths::of(std::size_t i) {
-  if (!exact_[i]) exact_[i] = process::solve_cast(*find_cast("exact"), {}, cases_[i]);
+  if (!exact_[i])
+    exact_[i] = process::solve_cast(*registry::find<CastEntry>("exact"), {}, cases_[i]);
   return *exact_[i];
 }
 
