@@ -37,7 +37,7 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene,
   std::vector<draw::BodyState> states(player.boxes().size(), draw::BodyState::apart);
   Executor executor(1);
   const std::unique_ptr<BroadPhase> broad =
-      registry::find<BroadPhaseEntry>("sweep-and-prune")->make(executor);
+      registry::find<BroadPhaseEntry>("sweep-one-axis")->make(executor);
   PairSink sink;
   broad->build(player.boxes());
   broad->find_pairs(sink);

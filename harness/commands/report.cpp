@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 struct ReportOptions {
   std::vector<std::string> results, scenes;
-  std::string narrow = "certified,gjk", broad = "uniform-grid,linear-bvh,sweep-and-prune";
+  std::string narrow = "certified,gjk", broad = "uniform-grid,linear-bvh,sweep-one-axis";
   std::string out, page;
   scene::SceneOverrides overrides;
   int frames = report::RecordingRequest{}.most_frames;

@@ -11,15 +11,9 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr std::array<std::string_view, 9> broad_names = {"sweep-and-prune",
-                                                         "incremental-sweep-and-prune",
-                                                         "packed-rtree",
-                                                         "verlet-list",
-                                                         "hierarchical-grid",
-                                                         "linear-bvh",
-                                                         "dynamic-bvh",
-                                                         "uniform-grid",
-                                                         "naive"};
+constexpr std::array<std::string_view, 9> broad_names = {
+    "sweep-one-axis", "sweep-and-prune", "packed-rtree", "verlet-list", "hierarchical-grid",
+    "linear-bvh",     "dynamic-bvh",     "uniform-grid", "naive"};
 // The peers at the end are left out if they are not built. A pair that gjk-lanes does not take goes
 // to the algorithm behind it.
 constexpr std::array<std::string_view, 16> narrow_names = {"gjk",

@@ -88,7 +88,7 @@ TradeGrid read_grid(files::TomlTable& table) {
   TradeGrid grid;
   read_axis(table, "representations", grid.representations, representations_of);
   read_axis(table, "boxes", grid.boxes, boxes_of);
-  std::vector<std::string> names = {"sweep-and-prune"};
+  std::vector<std::string> names = {"sweep-one-axis"};
   read_axis(table, "broad", names, text_of);
   try {
     grid.broad = campaign::select(registry::entries<BroadPhaseEntry>(), names, "broad phase");

@@ -90,7 +90,7 @@ TEST(StructureByHand, Intervals) {
                                      turned({{1, 3, 0}, {2, 3, 9}})};
     const Structure expected = {{turned({{1, 2, -1}, {2, 2, -1}}), 0},
                                 {turned({{5, 2, -1}, {6, 2, -1}}), 0}};
-    for (const char* name : {"sweep-and-prune", "sort-and-sweep", "incremental-sweep-and-prune"}) {
+    for (const char* name : {"sweep-one-axis", "sweep-three-axes", "sweep-and-prune"}) {
       Structure structure = structure_of(name, boxes);
       std::ranges::sort(structure, {}, [](const StructureBox& own) { return own.box.min; });
       EXPECT_EQ(structure, expected) << name << ' ' << axis;

@@ -125,7 +125,7 @@ TEST(MovingPairs, AreCutWhereBoxesSweepMuch) {
 
 TEST(MovingPairs, OfNothingAndOfEmptySlots) {
   Executor executor(1);
-  MovingPairs moving(*registry::find<BroadPhaseEntry>("sweep-and-prune"), executor);
+  MovingPairs moving(*registry::find<BroadPhaseEntry>("sweep-one-axis"), executor);
   std::vector<IndexPair> pairs = {{0, 1}};
   EXPECT_EQ(moving.find_pairs({}, pairs), Status::ok);
   EXPECT_TRUE(pairs.empty());

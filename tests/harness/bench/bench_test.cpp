@@ -137,7 +137,7 @@ TEST(Bench, RunsWhatTheFilterTakesAndWritesJson) {
   const TemporaryFolder folder;
   const std::filesystem::path out = folder.path() / "out.json";
   const std::string filter =
-      "'^(broad/(naive|sweep-and-prune)/(uniform|city)/1000/|"
+      "'^(broad/(naive|sweep-one-axis)/(uniform|city)/1000/|"
       "narrow/(gjk|sat|closed-form)/double/(box-box|sphere-box|capsule-capsule)/|"
       "kernels/(support/float/(box|hull-32)|radix-sort/1000$|insertion-sort/1000$|"
       "box-(scan|sweep)/baseline/1000|box-axes)|meshes/mid/[a-z-]+/torus-2000/|oracle/verdict/"
