@@ -6,6 +6,9 @@
 // The harness includes this; algorithms do not.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -22,29 +25,73 @@
 
 namespace touchstone {
 
-// The entries, in the order of the list. Names are unique within a contract.
-std::span<const BroadPhaseEntry> broad_phases();
-std::span<const NarrowPhaseEntry> narrow_phases();
-std::span<const ManifoldEntry> contact_manifolds();
-std::span<const RayCastEntry> ray_casts();
-std::span<const SceneRayCastEntry> scene_ray_casts();
-std::span<const PointQueryEntry> point_queries();
-std::span<const MidPhaseEntry> mid_phases();
-std::span<const ConcaveEntry> concave_phases();
-std::span<const CastEntry> casts();
-std::span<const CcdEntry> ccds();
+// What a kind of query is called. A kind is a contract, and is named by the type of its entries.
+struct KindWords {
+  std::string_view word;   // in options, columns and campaigns
+  std::string_view title;  // what its algorithms are: a heading
+  // Other words that are accepted wherever a kind is given. None is a word of another kind.
+  std::array<std::string_view, 2> other = {};
+};
 
-// Each returns null if no entry has that name.
-const BroadPhaseEntry* find_broad_phase(std::string_view name);
-const NarrowPhaseEntry* find_narrow_phase(std::string_view name);
-const ManifoldEntry* find_contact_manifold(std::string_view name);
-const RayCastEntry* find_ray_cast(std::string_view name);
-const SceneRayCastEntry* find_scene_ray_cast(std::string_view name);
-const PointQueryEntry* find_point_query(std::string_view name);
-const MidPhaseEntry* find_mid_phase(std::string_view name);
-const ConcaveEntry* find_concave_phase(std::string_view name);
-const CastEntry* find_cast(std::string_view name);
-const CcdEntry* find_ccd(std::string_view name);
+template <class Entry>
+inline constexpr KindWords kind_words = {};  // has no meaning but for the types below
+template <>
+inline constexpr KindWords kind_words<BroadPhaseEntry> = {
+    "box", "broad phases", {"broad", "boxes"}};
+template <>
+inline constexpr KindWords kind_words<NarrowPhaseEntry> = {
+    "pair", "narrow phases", {"narrow", "pairs"}};
+template <>
+inline constexpr KindWords kind_words<ManifoldEntry> = {
+    "manifold", "contact manifolds", {"manifolds"}};
+template <>
+inline constexpr KindWords kind_words<RayCastEntry> = {"ray", "ray casts of meshes", {"rays"}};
+template <>
+inline constexpr KindWords kind_words<SceneRayCastEntry> = {
+    "scene-ray", "ray casts of scenes", {"scene-rays"}};
+template <>
+inline constexpr KindWords kind_words<PointQueryEntry> = {
+    "point", "point queries of meshes", {"points"}};
+template <>
+inline constexpr KindWords kind_words<MidPhaseEntry> = {"mid-phase", "mid-phases", {"mid"}};
+template <>
+inline constexpr KindWords kind_words<ConcaveEntry> = {
+    "mesh", "collision of meshes", {"concave", "meshes"}};
+template <>
+inline constexpr KindWords kind_words<CastEntry> = {
+    "cast", "casts of moving bodies", {"shape-cast", "casts"}};
+template <>
+inline constexpr KindWords kind_words<CcdEntry> = {
+    "feature", "continuous collision of features", {"ccd", "features"}};
+
+namespace registry {
+
+// Calls visit.operator()<Entry>() for the type of entries of each kind.
+template <class Visit>
+void for_each_kind(Visit&& visit) {
+  const auto each = [&]<class... Entry>() { (visit.template operator()<Entry>(), ...); };
+  each.template
+  operator()<BroadPhaseEntry, NarrowPhaseEntry, ManifoldEntry, RayCastEntry, SceneRayCastEntry,
+             PointQueryEntry, MidPhaseEntry, ConcaveEntry, CastEntry, CcdEntry>();
+}
+
+// Returns the words of the kind with this word, or with this other word; nothing if there is none.
+std::optional<KindWords> kind_named(std::string_view word);
+
+// The entries of a kind, in the order of the list. Names are unique within a kind. Defined in the file
+// that CMake writes from registry_list.cpp.in, for each kind.
+template <class Entry>
+std::span<const Entry> entries();
+
+// Returns null if no entry has that name.
+template <class Entry>
+const Entry* find(std::string_view name) {
+  const std::span<const Entry> all = entries<Entry>();
+  const auto at = std::ranges::find_if(all, [&](const Entry& e) { return e.info.name == name; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+}  // namespace registry
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
 bool offers(const NarrowPhaseEntry& entry, Task task);

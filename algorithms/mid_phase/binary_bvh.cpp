@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "algorithms/core/mesh/placed_box.h"
-#include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase_of_bodies.h"
+#include "algorithms/kernels/bvh/volume_trees.h"
 
 namespace touchstone {
 namespace {
@@ -28,56 +26,36 @@ Aabb joined(const Aabb& a, const Aabb& b) {
   return box;
 }
 
-class BoxTree {
+class BoxTree : public VolumeTree<Aabb> {
  public:
-  explicit BoxTree(std::span<const Aabb> parts) : tree_(build_binary_tree(parts)) { refit(parts); }
+  explicit BoxTree(std::span<const Aabb> parts) : VolumeTree(parts) { refit(parts); }
 
   void refit(std::span<const Aabb> parts) {
     reach_ = reach_of(parts);
-    boxes_.resize(tree_.nodes.size());
-    for (std::uint32_t n = static_cast<std::uint32_t>(boxes_.size()); n-- > 0;) {
+    for (std::uint32_t n = static_cast<std::uint32_t>(volumes_.size()); n-- > 0;) {
       const BinaryTree::Node& node = tree_.nodes[n];
-      boxes_[n] = node.is_leaf() ? parts[tree_.order[node.first]]
-                                 : joined(boxes_[n + 1], boxes_[node.right]);
+      volumes_[n] = node.is_leaf() ? parts[tree_.order[node.first]]
+                                   : joined(volumes_[n + 1], volumes_[node.right]);
     }
   }
-
-  const BinaryTree& tree() const { return tree_; }
-  const Aabb& box(std::uint32_t node) const { return boxes_[node]; }
-  double reach() const { return reach_; }
-
- private:
-  BinaryTree tree_;
-  std::vector<Aabb> boxes_;  // of the nodes
-  double reach_;
 };
 
-class BinaryBvhMidPhase final : public MidPhaseOfBodies<BoxTree> {
- public:
-  bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
-                  const TakePartPairs& take) override {
-    const BoxTree &first = kept(a), &second = kept(b);
-    const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
-    const double slack = box_slack(frame, first.reach(), second.reach());
-    PlacedBox box_a, box_b;
-    return descend(
-        first.tree(), second.tree(), open_,
-        [&](std::uint32_t i, std::uint32_t j) {
-          if (first.box(i).is_empty() || second.box(j).is_empty()) return true;
-          box_a = PlacedBox(first.box(i), frame.a);
-          box_b = PlacedBox(second.box(j), frame.b);
-          return are_apart(box_a, box_b, slack);
-        },
-        [&](std::uint32_t, std::uint32_t) { return !(box_a.half.sum() < box_b.half.sum()); },
-        [&](std::uint32_t i, std::uint32_t j) {
-          const IndexPair found = {i, j};
-          return take({&found, 1});
-        });
+struct BoxComparison : PlacedTrees<BoxTree> {
+  bool apart(std::uint32_t i, std::uint32_t j) {
+    if (a.volume(i).is_empty() || b.volume(j).is_empty()) return true;
+    box_a = PlacedBox(a.volume(i), frame.a);
+    box_b = PlacedBox(b.volume(j), frame.b);
+    return are_apart(box_a, box_b, slack);
   }
+  bool splits_first(std::uint32_t, std::uint32_t) const {
+    return !(box_a.half.sum() < box_b.half.sum());
+  }
+  bool meet(std::uint32_t, std::uint32_t) const { return true; }
 
- private:
-  std::vector<IndexPair> open_;  // pairs of nodes
+  PlacedBox box_a = {}, box_b = {};  // of the last nodes
 };
+
+using BinaryBvhMidPhase = VolumeTreeMidPhase<BoxTree, BoxComparison>;
 
 }  // namespace
 }  // namespace touchstone

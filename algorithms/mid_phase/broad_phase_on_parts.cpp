@@ -20,7 +20,7 @@
 namespace touchstone::entries {
 
 std::vector<BroadPhaseEntry> broad_phase_packed_rtree();
-std::vector<BroadPhaseEntry> broad_phase_sweep_and_prune();
+std::vector<BroadPhaseEntry> broad_phase_sweep_one_axis();
 std::vector<BroadPhaseEntry> broad_phase_uniform_grid();
 
 }  // namespace touchstone::entries
@@ -184,7 +184,7 @@ MidPhaseEntry entry_of(const std::vector<BroadPhaseEntry>& entries) {
 namespace touchstone::entries {
 
 std::vector<MidPhaseEntry> mid_phase_broad_phase_on_parts() {
-  return {entry_of(broad_phase_sweep_and_prune()), entry_of(broad_phase_uniform_grid()),
+  return {entry_of(broad_phase_sweep_one_axis()), entry_of(broad_phase_uniform_grid()),
           entry_of(broad_phase_packed_rtree())};
 }
 

@@ -16,9 +16,7 @@
 #include <cmath>
 #include <vector>
 
-#include "algorithms/core/mesh/placed_box.h"
-#include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase_of_bodies.h"
+#include "algorithms/kernels/bvh/volume_trees.h"
 
 namespace touchstone {
 namespace {
@@ -82,12 +80,11 @@ void enclose(std::span<const Aabb> boxes, std::span<const std::uint32_t> parts, 
   box.half = ((high - low) / 2).array() + 0x1p-44 * reach;
 }
 
-class ObbTree {
+class ObbTree : public VolumeTree<OrientedBox> {
  public:
-  explicit ObbTree(std::span<const Aabb> parts)
-      : tree_(build_binary_tree(parts)), boxes_(tree_.nodes.size()) {
-    for (std::size_t n = 0; n < boxes_.size(); ++n) {
-      if (!tree_.nodes[n].is_leaf()) boxes_[n].axes = principal_axes(parts, tree_.parts(n));
+  explicit ObbTree(std::span<const Aabb> parts) : VolumeTree(parts) {
+    for (std::size_t n = 0; n < volumes_.size(); ++n) {
+      if (!tree_.nodes[n].is_leaf()) volumes_[n].axes = principal_axes(parts, tree_.parts(n));
     }
     refit(parts);
   }
@@ -95,19 +92,10 @@ class ObbTree {
   // The axes stay as they are.
   void refit(std::span<const Aabb> parts) {
     reach_ = reach_of(parts);
-    for (std::size_t n = 0; n < boxes_.size(); ++n) {
-      enclose(parts, tree_.parts(n), reach_, boxes_[n]);
+    for (std::size_t n = 0; n < volumes_.size(); ++n) {
+      enclose(parts, tree_.parts(n), reach_, volumes_[n]);
     }
   }
-
-  const BinaryTree& tree() const { return tree_; }
-  const OrientedBox& box(std::uint32_t node) const { return boxes_[node]; }
-  double reach() const { return reach_; }
-
- private:
-  BinaryTree tree_;
-  std::vector<OrientedBox> boxes_;  // of the nodes
-  double reach_;
 };
 
 // A box in the frame: its centre and its half edges, which form any parallelepiped.
@@ -144,35 +132,23 @@ bool are_apart(const PlacedObb& a, const PlacedObb& b, double slack) {
   return false;
 }
 
-class ObbTreeMidPhase final : public MidPhaseOfBodies<ObbTree> {
- public:
-  bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
-                  const TakePartPairs& take) override {
-    const ObbTree &first = kept(a), &second = kept(b);
-    const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
-    const double slack = 4 * box_slack(frame, first.reach(), second.reach());
-    return descend(
-        first.tree(), second.tree(), open_,
-        [&](std::uint32_t i, std::uint32_t j) {
-          const OrientedBox &box_a = first.box(i), &box_b = second.box(j);
-          if (box_a.is_empty || box_b.is_empty) return true;
-          if (box_a.is_boundless || box_b.is_boundless) return false;
-          return are_apart(PlacedObb(box_a, frame.a), PlacedObb(box_b, frame.b), slack);
-        },
-        [&](std::uint32_t i, std::uint32_t j) {
-          const OrientedBox &box_a = first.box(i), &box_b = second.box(j);
-          return box_a.is_boundless ||
-                 (!box_b.is_boundless && !(box_a.half.sum() < box_b.half.sum()));
-        },
-        [&](std::uint32_t i, std::uint32_t j) {
-          const IndexPair found = {i, j};
-          return take({&found, 1});
-        });
+struct ObbComparison : PlacedTrees<ObbTree> {
+  bool apart(std::uint32_t i, std::uint32_t j) const {
+    const OrientedBox &box_a = a.volume(i), &box_b = b.volume(j);
+    if (box_a.is_empty || box_b.is_empty) return true;
+    if (box_a.is_boundless || box_b.is_boundless) return false;
+    return are_apart(PlacedObb(box_a, frame.a), PlacedObb(box_b, frame.b), wide);
   }
+  bool splits_first(std::uint32_t i, std::uint32_t j) const {
+    const OrientedBox &box_a = a.volume(i), &box_b = b.volume(j);
+    return box_a.is_boundless || (!box_b.is_boundless && !(box_a.half.sum() < box_b.half.sum()));
+  }
+  bool meet(std::uint32_t, std::uint32_t) const { return true; }
 
- private:
-  std::vector<IndexPair> open_;  // pairs of nodes
+  double wide = 4 * slack;  // along axes that are rounded
 };
+
+using ObbTreeMidPhase = VolumeTreeMidPhase<ObbTree, ObbComparison>;
 
 }  // namespace
 }  // namespace touchstone

@@ -16,9 +16,7 @@
 #include <limits>
 #include <vector>
 
-#include "algorithms/core/mesh/placed_box.h"
-#include "algorithms/kernels/bvh/binary_tree.h"
-#include "algorithms/mid_phase_of_bodies.h"
+#include "algorithms/kernels/bvh/volume_trees.h"
 
 namespace touchstone {
 namespace {
@@ -38,26 +36,20 @@ Ball ball_of(const Aabb& box) {
   return {(low + high) / 2, half.norm() * (1 + 0x1p-48)};
 }
 
-class SphereTree {
+class SphereTree : public VolumeTree<Ball> {
  public:
-  explicit SphereTree(std::span<const Aabb> parts) : tree_(build_binary_tree(parts)) {
-    refit(parts);
-  }
+  explicit SphereTree(std::span<const Aabb> parts) : VolumeTree(parts) { refit(parts); }
 
   void refit(std::span<const Aabb> parts) {
     reach_ = reach_of(parts);
     parts_.assign(parts.begin(), parts.end());
-    balls_.assign(tree_.nodes.size(), {});
-    for (std::size_t n = 0; n < balls_.size(); ++n) {
+    for (std::size_t n = 0; n < volumes_.size(); ++n) {
       const auto of_node = tree_.parts(n);
-      balls_[n] = of_node.size() == 1 ? ball_of(parts[of_node[0]]) : enclosing(of_node);
+      volumes_[n] = of_node.size() == 1 ? ball_of(parts[of_node[0]]) : enclosing(of_node);
     }
   }
 
-  const BinaryTree& tree() const { return tree_; }
-  const Ball& ball(std::uint32_t node) const { return balls_[node]; }
   const Aabb& box(std::uint32_t part) const { return parts_[part]; }
-  double reach() const { return reach_; }
 
  private:
   // The ball around the balls of these parts.
@@ -82,50 +74,34 @@ class SphereTree {
     return ball;
   }
 
-  BinaryTree tree_;
   std::vector<Aabb> parts_;
-  std::vector<Ball> balls_;  // of the nodes
-  double reach_;
 };
 
-class SphereTreeMidPhase final : public MidPhaseOfBodies<SphereTree> {
- public:
-  bool find_pairs(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
-                  const TakePartPairs& take) override {
-    const SphereTree &first = kept(a), &second = kept(b);
-    const CommonFrame frame = common_frame(pose_a, first.reach(), pose_b, second.reach());
-    const double slack = 4 * box_slack(frame, first.reach(), second.reach());
-    const double stretch_a = stretch(frame.a.rotation), stretch_b = stretch(frame.b.rotation);
-    return descend(
-        first.tree(), second.tree(), open_,
-        [&](std::uint32_t i, std::uint32_t j) {
-          const Ball &ball_a = first.ball(i), &ball_b = second.ball(j);
-          if (ball_a.radius < 0 || ball_b.radius < 0) return true;
-          const Vec3d between = frame.b(ball_b.centre) - frame.a(ball_a.centre);
-          return between.norm() > ball_a.radius * stretch_a + ball_b.radius * stretch_b + slack;
-        },
-        [&](std::uint32_t i, std::uint32_t j) {
-          return !(first.ball(i).radius < second.ball(j).radius);
-        },
-        [&](std::uint32_t i, std::uint32_t j) {
-          if (are_apart(PlacedBox(first.box(i), frame.a), PlacedBox(second.box(j), frame.b),
-                        slack)) {
-            return true;
-          }
-          const IndexPair found = {i, j};
-          return take({&found, 1});
-        });
+struct BallComparison : PlacedTrees<SphereTree> {
+  bool apart(std::uint32_t i, std::uint32_t j) const {
+    const Ball &ball_a = a.volume(i), &ball_b = b.volume(j);
+    if (ball_a.radius < 0 || ball_b.radius < 0) return true;
+    const Vec3d between = frame.b(ball_b.centre) - frame.a(ball_a.centre);
+    return between.norm() > ball_a.radius * stretch_a + ball_b.radius * stretch_b + wide;
+  }
+  bool splits_first(std::uint32_t i, std::uint32_t j) const {
+    return !(a.volume(i).radius < b.volume(j).radius);
+  }
+  bool meet(std::uint32_t i, std::uint32_t j) const {
+    return !are_apart(PlacedBox(a.box(i), frame.a), PlacedBox(b.box(j), frame.b), wide);
   }
 
- private:
   // How much longer a matrix makes a vector at most: the norm bounds the greatest eigenvalue.
   static double stretch(const Mat3d& m) {
     const Mat3d squares = m.transpose() * m;
     return std::sqrt(squares.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 0x1p-46);
   }
 
-  std::vector<IndexPair> open_;  // pairs of nodes
+  double wide = 4 * slack;  // norms are rounded too
+  double stretch_a = stretch(frame.a.rotation), stretch_b = stretch(frame.b.rotation);
 };
+
+using SphereTreeMidPhase = VolumeTreeMidPhase<SphereTree, BallComparison>;
 
 }  // namespace
 }  // namespace touchstone

@@ -39,11 +39,6 @@ std::unique_ptr<NarrowPhase> make_box_box(const NarrowPhaseSettings& settings) {
 
 }  // namespace
 }  // namespace touchstone::bullet
-#else
-#include "algorithms/peers/not_built.h"
-namespace touchstone::bullet {
-using namespace not_built;
-}  // namespace touchstone::bullet
 #endif
 
 namespace touchstone::entries {

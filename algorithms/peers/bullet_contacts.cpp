@@ -150,11 +150,6 @@ std::unique_ptr<ContactManifold> make_hull_contacts(const ManifoldSettings& sett
 
 }  // namespace
 }  // namespace touchstone::bullet
-#else
-#include "algorithms/peers/not_built.h"
-namespace touchstone::bullet {
-using namespace not_built;
-}  // namespace touchstone::bullet
 #endif
 
 namespace touchstone::entries {

@@ -75,11 +75,6 @@ std::unique_ptr<NarrowPhase> make_gjk_epa(const NarrowPhaseSettings& settings) {
 
 }  // namespace
 }  // namespace touchstone::bullet
-#else
-#include "algorithms/peers/not_built.h"
-namespace touchstone::bullet {
-using namespace not_built;
-}  // namespace touchstone::bullet
 #endif
 
 namespace touchstone::entries {

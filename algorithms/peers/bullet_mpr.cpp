@@ -84,11 +84,6 @@ std::unique_ptr<NarrowPhase> make_mpr(const NarrowPhaseSettings& settings) {
 
 }  // namespace
 }  // namespace touchstone::bullet
-#else
-#include "algorithms/peers/not_built.h"
-namespace touchstone::bullet {
-using namespace not_built;
-}  // namespace touchstone::bullet
 #endif
 
 namespace touchstone::entries {

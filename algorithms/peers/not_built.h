@@ -31,3 +31,10 @@ inline constexpr std::nullptr_t encoding = nullptr, make = nullptr, make_aabb = 
                                 supports = nullptr;
 
 }  // namespace touchstone::not_built
+
+// Bullet's entries name its functions by this namespace.
+#ifndef TOUCHSTONE_HAS_BULLET
+namespace touchstone::bullet {
+using namespace not_built;
+}
+#endif

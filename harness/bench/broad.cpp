@@ -155,7 +155,7 @@ void add(const Subject& subject, std::string_view phase, const Call& call) {
 
 void register_broad_benchmarks() {
   using State = benchmark::State;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (!is_built(entry.info)) continue;
     for (const std::string_view scene : scenes) {
       for (const std::int64_t count : body_counts) {

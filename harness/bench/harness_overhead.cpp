@@ -84,7 +84,7 @@ void broad(benchmark::State& state, int threads) {
     return reply.durations.sum() / (frames - 1);
   };
   double fastest = std::numeric_limits<double>::infinity();
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin != Origin::ours) continue;
     measure::BroadSampler sampler(entry, stage.input, false, executor);
     const double seconds = typical(sampler, take);
@@ -117,7 +117,7 @@ void narrow(benchmark::State& state, int threads) {
     return reply.durations.sum() / static_cast<double>(reply.pairs);
   };
   double fastest = std::numeric_limits<double>::infinity();
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (entry.info.origin != Origin::ours ||
         !offers(entry, spheres->kind_a, spheres->kind_b, task)) {
       continue;

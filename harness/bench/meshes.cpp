@@ -113,7 +113,7 @@ void add_refit(const MidPhaseEntry& entry) {
 }  // namespace
 
 void register_mesh_benchmarks() {
-  for (const MidPhaseEntry& entry : mid_phases()) {
+  for (const MidPhaseEntry& entry : registry::entries<MidPhaseEntry>()) {
     if (!is_built(entry.info)) continue;
     add_build("mid/" + entry.info.name, [&entry](const Subject& of) {
       auto phase = entry.make();
@@ -122,13 +122,13 @@ void register_mesh_benchmarks() {
     });
     add_refit(entry);
   }
-  for (const ConcaveEntry& entry : concave_phases()) {
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     if (!is_built(entry.info) || entry.info.origin == Origin::oracle) continue;
     add_build("concave/" + entry.info.name, [&entry](const Subject& of) {
       ConcaveSettings settings;
       settings.scalar = entry.scalars.back();
-      settings.mid_phase = find_mid_phase("wide-bvh")->make;
-      settings.narrow_phase = [] { return find_narrow_phase("gjk")->make({}); };
+      settings.mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make;
+      settings.narrow_phase = [] { return registry::find<NarrowPhaseEntry>("gjk")->make({}); };
       auto bodies = std::make_shared<std::vector<ConcaveBody>>(1);
       bodies->front().mesh = of.mesh;
       std::shared_ptr<ConcavePhase> phase = entry.make(settings);
@@ -136,7 +136,7 @@ void register_mesh_benchmarks() {
       return std::pair(bodies, phase);
     });
   }
-  for (const RayCastEntry& entry : ray_casts()) {
+  for (const RayCastEntry& entry : registry::entries<RayCastEntry>()) {
     if (!is_built(entry.info) || entry.info.origin == Origin::oracle) continue;
     add_build("ray/" + entry.info.name, [&entry](const Subject& of) {
       auto cast = entry.make({.scalar = entry.scalars.back()});
@@ -144,7 +144,7 @@ void register_mesh_benchmarks() {
       return cast;
     });
   }
-  for (const PointQueryEntry& entry : point_queries()) {
+  for (const PointQueryEntry& entry : registry::entries<PointQueryEntry>()) {
     if (!is_built(entry.info) || entry.info.origin == Origin::oracle) continue;
     add_build("point/" + entry.info.name, [&entry](const Subject& of) {
       auto query = entry.make();

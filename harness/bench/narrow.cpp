@@ -47,7 +47,7 @@ std::string NarrowSubject::name() const {
 
 std::vector<NarrowSubject> narrow_subjects() {
   std::vector<NarrowSubject> subjects;
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (!is_built(entry.info)) continue;
     for (const Precision scalar : entry.scalars) {
       for (const FamilyPair& families : family_pairs()) {

@@ -137,7 +137,8 @@ std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
   const std::vector<bool> starts = warm_starts(settings);
   const std::vector<int> sizes = batches(settings);
   std::vector<measure::NarrowChoice> choices;
-  for (const NarrowPhaseEntry* entry : algorithms(settings, "narrow", narrow_phases())) {
+  for (const NarrowPhaseEntry* entry :
+       algorithms(settings, "narrow", registry::entries<NarrowPhaseEntry>())) {
     if (duality_gap && !entry->traits.stops_by_duality_gap) {
       gap_holder.fail("duality_gap",
                       fmt::format("given with '{}', which does not stop by it; "
@@ -168,8 +169,9 @@ std::vector<measure::NarrowChoice> concave_choices(Settings& settings) {
   const auto scalars = settings.choices<Precision>("scalars", scalar_names,
                                                    {Precision::float32, Precision::float64});
   return measure::concave_choices(
-      algorithms(settings, "concave", concave_phases()),
-      algorithms(settings, "mid_phases", mid_phases(), {std::string(measure::usual_mid_phase)}),
+      algorithms(settings, "concave", registry::entries<ConcaveEntry>()),
+      algorithms(settings, "mid_phases", registry::entries<MidPhaseEntry>(),
+                 {std::string(measure::usual_mid_phase)}),
       scalars);
 }
 
@@ -206,11 +208,11 @@ std::vector<CampaignRule> rules(Settings& settings, const std::string& key) {
     if (rule.broad && rule.narrow) {
       table.fail("narrow", "a rule is about a broad phase or a narrow phase, not both");
     }
-    if (rule.broad && find_broad_phase(*rule.broad) == nullptr) {
+    if (rule.broad && registry::find<BroadPhaseEntry>(*rule.broad) == nullptr) {
       table.fail("broad", "no broad phase is called '" + *rule.broad + "'");
     }
-    if (rule.narrow && find_narrow_phase(*rule.narrow) == nullptr &&
-        find_concave_phase(rule.narrow->substr(0, rule.narrow->find(' '))) == nullptr) {
+    if (rule.narrow && registry::find<NarrowPhaseEntry>(*rule.narrow) == nullptr &&
+        registry::find<ConcaveEntry>(rule.narrow->substr(0, rule.narrow->find(' '))) == nullptr) {
       table.fail("narrow", "no narrow phase is called '" + *rule.narrow + "'");
     }
     table.finish();
@@ -251,7 +253,7 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
     group.isa.push_back(limit_of(choice));
   }
   group.rebuild = settings.of("rebuild").boolean("rebuild", false);
-  group.broad = algorithms(settings, "broad", broad_phases());
+  group.broad = algorithms(settings, "broad", registry::entries<BroadPhaseEntry>());
   group.limit = settings.of("limit").boolean("limit", false);
   group.narrow = narrow_choices(settings);
   group.concave = concave_choices(settings);

@@ -29,11 +29,11 @@ std::size_t index_of(std::vector<Candidate>& candidates, const Candidate& wanted
   return candidates.size() - 1;
 }
 
-// Finds sweep and prune, or cold GJK in double; without it the first of ours, else the first.
+// Finds the sweep on one axis, or cold GJK in double; without it the first of ours, else the first.
 std::size_t baseline(std::span<const Candidate> candidates) {
   const auto is_ours = [](const Candidate& c) { return c.info().origin == Origin::ours; };
   const auto is_usual = [](const Candidate& c) {
-    return c.info().name == (c.broad != nullptr ? "sweep-and-prune" : "gjk") &&
+    return c.info().name == (c.broad != nullptr ? "sweep-one-axis" : "gjk") &&
            (c.narrow == nullptr || (c.narrow->settings.scalar == Precision::float64 &&
                                     !c.narrow->warm && c.narrow->batch == measure::usual_batch));
   };

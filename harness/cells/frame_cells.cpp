@@ -264,7 +264,7 @@ std::vector<kinds::PlannedSet> frame_cells(files::TomlTable& table,
   const std::vector<LoopSource> sources = read_sources(table, home);
   const std::vector<std::int64_t> threads = table.integers("threads", 1, 1024, 1);
   const std::vector<std::size_t> questions = kinds::choices(table, "asks", question_names);
-  const auto entries = kinds::selected(table, broad_phases(), "broad phase");
+  const auto entries = kinds::selected(table, registry::entries<BroadPhaseEntry>(), "broad phase");
   const auto last = std::make_shared<LastLoop>();
   std::vector<kinds::PlannedSet> cells;
   for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -57,15 +57,16 @@ std::vector<kinds::PlannedSet> motion_cells(files::TomlTable& table,
   }
   request.threads = whole_numbers(table, "threads", 1024, 1);
   try {
-    request.broad =
-        kinds::select(broad_phases(), table.texts("broad", {"packed-rtree"}), "broad phase");
+    request.broad = kinds::select(registry::entries<BroadPhaseEntry>(),
+                                  table.texts("broad", {"packed-rtree"}), "broad phase");
   } catch (const base::InputError& error) {
     table.fail("broad", error.what());
   }
-  request.casts = chains(table, "casts", {"ours", "peers"}, casts(), cast_chain, "cast");
+  request.casts =
+      chains(table, "casts", {"ours", "peers"}, registry::entries<CastEntry>(), cast_chain, "cast");
   if (table.contains("substeps")) request.substeps = whole_numbers(table, "substeps", 1'000'000, 1);
-  request.narrow =
-      chains(table, "narrow", {"closed-form+gjk"}, narrow_phases(), narrow_chain, "narrow phase");
+  request.narrow = chains(table, "narrow", {"closed-form+gjk"},
+                          registry::entries<NarrowPhaseEntry>(), narrow_chain, "narrow phase");
   request.scalars.clear();
   for (const std::size_t scalar : kinds::choices(table, "scalars", scalar_names))
     request.scalars.push_back(static_cast<Precision>(scalar));

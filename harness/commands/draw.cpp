@@ -36,7 +36,8 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene,
                                        const scene::ScenePlayer& player) {
   std::vector<draw::BodyState> states(player.boxes().size(), draw::BodyState::apart);
   Executor executor(1);
-  const std::unique_ptr<BroadPhase> broad = find_broad_phase("sweep-and-prune")->make(executor);
+  const std::unique_ptr<BroadPhase> broad =
+      registry::find<BroadPhaseEntry>("sweep-one-axis")->make(executor);
   PairSink sink;
   broad->build(player.boxes());
   broad->find_pairs(sink);
@@ -57,8 +58,8 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene,
     convex = pairs;
   } else {
     const std::vector<ConcaveBody> bodies = measure::concave_bodies(scene);
-    const auto fused = measure::concave_choices(std::array{find_concave_phase("fused")}, {},
-                                                std::array{Precision::float64})
+    const auto fused = measure::concave_choices(std::array{registry::find<ConcaveEntry>("fused")},
+                                                {}, std::array{Precision::float64})
                            .at(0)
                            .make_concave(bodies);
     std::vector<IndexPair> parts;
@@ -77,7 +78,7 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene,
       mark(pair.b, draw::BodyState::overlapping);
     }
   }
-  const std::unique_ptr<NarrowPhase> narrow = find_narrow_phase("gjk")->make({});
+  const std::unique_ptr<NarrowPhase> narrow = registry::find<NarrowPhaseEntry>("gjk")->make({});
   narrow->bind(scene.shapes);
   for (const grade::PairGroup& group : grade::group_by_kind(convex, scene.shapes, shape_of)) {
     std::vector<Outcome> outcomes(group.size());

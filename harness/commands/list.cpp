@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +22,21 @@ namespace touchstone::commands {
 namespace {
 
 struct Listed {
-  const AlgorithmInfo* info;
-  std::string_view kind;
   std::string tasks, scalars;  // joined by ';'
   std::string tolerance = {};  // what a tolerance limits
+  const AlgorithmInfo* info = nullptr;
+  std::string_view kind = {};
 };
+
+// Returns "box, pair, ...".
+std::string kinds() {
+  std::string words;
+  registry::for_each_kind([&]<class Entry>() {
+    if (!words.empty()) words += ", ";
+    words += kind_words<Entry>.word;
+  });
+  return words;
+}
 
 template <class Enumeration>
 std::string joined(const std::vector<Enumeration>& values) {
@@ -37,43 +48,42 @@ std::string joined(const std::vector<Enumeration>& values) {
   return text;
 }
 
-std::vector<Listed> all_algorithms() {
+std::string one(Precision scalar) { return std::string(to_string(scalar)); }
+
+Listed listed(const BroadPhaseEntry&) { return {"pairs", one(Precision::float32)}; }
+Listed listed(const NarrowPhaseEntry& entry) {
+  return {joined(entry.tasks), joined(entry.scalars), entry.tolerance};
+}
+Listed listed(const ManifoldEntry& entry) { return {"manifold", joined(entry.scalars)}; }
+Listed listed(const RayCastEntry& entry) { return {joined(entry.tasks), joined(entry.scalars)}; }
+Listed listed(const SceneRayCastEntry& entry) {
+  return {joined(entry.tasks), one(Precision::float64)};
+}
+Listed listed(const PointQueryEntry& entry) { return {joined(entry.tasks), one(entry.scalar)}; }
+Listed listed(const MidPhaseEntry&) { return {"pairs", one(Precision::float32)}; }
+Listed listed(const ConcaveEntry& entry) { return {joined(entry.tasks), joined(entry.scalars)}; }
+Listed listed(const CastEntry& entry) {
+  return {entry.rotation ? "linear;rigid" : "linear", joined(entry.scalars)};
+}
+Listed listed(const CcdEntry&) { return {"vertex-face;edge-edge", one(Precision::float64)}; }
+
+// Returns the algorithms of a kind, or of all kinds if `kind` is empty. Throws InputError if no kind
+// has this word.
+std::vector<Listed> algorithms_of(std::string_view kind) {
+  const std::optional<KindWords> wanted = registry::kind_named(kind);
+  if (!kind.empty() && !wanted) {
+    throw base::InputError(
+        fmt::format("no kind is called '{}'; expected one of {}", kind, kinds()));
+  }
   std::vector<Listed> all;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
-    all.push_back({&entry.info, "broad", "pairs", std::string(to_string(Precision::float32))});
-  }
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
-    all.push_back(
-        {&entry.info, "narrow", joined(entry.tasks), joined(entry.scalars), entry.tolerance});
-  }
-  for (const ManifoldEntry& entry : contact_manifolds()) {
-    all.push_back({&entry.info, "manifold", "manifold", joined(entry.scalars)});
-  }
-  for (const RayCastEntry& entry : ray_casts()) {
-    all.push_back({&entry.info, "ray", joined(entry.tasks), joined(entry.scalars)});
-  }
-  for (const SceneRayCastEntry& entry : scene_ray_casts()) {
-    all.push_back({&entry.info, "scene-ray", joined(entry.tasks),
-                   std::string(to_string(Precision::float64))});
-  }
-  for (const PointQueryEntry& entry : point_queries()) {
-    all.push_back(
-        {&entry.info, "point", joined(entry.tasks), std::string(to_string(entry.scalar))});
-  }
-  for (const MidPhaseEntry& entry : mid_phases()) {
-    all.push_back({&entry.info, "mid", "pairs", std::string(to_string(Precision::float32))});
-  }
-  for (const ConcaveEntry& entry : concave_phases()) {
-    all.push_back({&entry.info, "concave", joined(entry.tasks), joined(entry.scalars)});
-  }
-  for (const CastEntry& entry : casts()) {
-    all.push_back(
-        {&entry.info, "cast", entry.rotation ? "linear;rigid" : "linear", joined(entry.scalars)});
-  }
-  for (const CcdEntry& entry : ccds()) {
-    all.push_back(
-        {&entry.info, "ccd", "vertex-face;edge-edge", std::string(to_string(Precision::float64))});
-  }
+  registry::for_each_kind([&]<class Entry>() {
+    if (wanted && wanted->word != kind_words<Entry>.word) return;
+    for (const Entry& entry : registry::entries<Entry>()) {
+      all.push_back(listed(entry));
+      all.back().info = &entry.info;
+      all.back().kind = kind_words<Entry>.word;
+    }
+  });
   return all;
 }
 
@@ -130,8 +140,10 @@ std::string as_table(const std::vector<Listed>& all) {
 void add_list(Arguments command) {
   const auto format = std::make_shared<std::string>("table");
   command.text("--format", *format, "How to print them").among({"table", "csv"}).show_default();
-  command.job([format] {
-    const std::vector<Listed> all = all_algorithms();
+  const auto kind = std::make_shared<std::string>();
+  command.text("--kind", *kind, "The kind to list: " + kinds());
+  command.job([format, kind] {
+    const std::vector<Listed> all = algorithms_of(*kind);
     const std::string text = *format == "csv" ? as_csv(all) : as_table(all);
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
         std::fflush(stdout) != 0) {

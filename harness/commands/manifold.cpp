@@ -186,8 +186,8 @@ std::string page_text(const ManifoldOptions& options, const grade::ManifoldTally
 }
 
 int manifold(const ManifoldOptions& options) {
-  const auto entries = kinds::select(contact_manifolds(), kinds::split_names(options.algorithms),
-                                     "contact manifold");
+  const auto entries = kinds::select(registry::entries<ManifoldEntry>(),
+                                     kinds::split_names(options.algorithms), "contact manifold");
   if (options.out.empty() && !options.grade) {
     throw base::InputError("nothing is asked for; expected --out FILE or --grade, or both");
   }

@@ -71,8 +71,8 @@ files::OrderedJson origins() {
   const auto add = [&](const auto& entries) {
     for (const auto& entry : entries) names[entry.info.name] = to_string(entry.info.origin);
   };
-  add(broad_phases());
-  add(narrow_phases());
+  add(registry::entries<BroadPhaseEntry>());
+  add(registry::entries<NarrowPhaseEntry>());
   return names;
 }
 
@@ -82,9 +82,10 @@ report::RecordingRequest recording_request(const ReportOptions& options) {
   request.overrides = options.overrides;
   request.most_frames = options.frames;
   request.time_limit = options.time_limit;
-  request.narrow =
-      kinds::select(narrow_phases(), kinds::split_names(options.narrow), "narrow phase");
-  request.broad = kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
+  request.narrow = kinds::select(registry::entries<NarrowPhaseEntry>(),
+                                 kinds::split_names(options.narrow), "narrow phase");
+  request.broad = kinds::select(registry::entries<BroadPhaseEntry>(),
+                                kinds::split_names(options.broad), "broad phase");
   return request;
 }
 

@@ -66,9 +66,11 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   group.boxes = options.boxes;
   group.threads = options.threads;
   group.rebuild = options.rebuild;
-  group.broad = kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
+  group.broad = kinds::select(registry::entries<BroadPhaseEntry>(),
+                              kinds::split_names(options.broad), "broad phase");
   for (const NarrowPhaseEntry* entry :
-       kinds::select(narrow_phases(), kinds::split_names(options.narrow), "narrow phase")) {
+       kinds::select(registry::entries<NarrowPhaseEntry>(), kinds::split_names(options.narrow),
+                     "narrow phase")) {
     for (const Precision scalar : options.scalars) {
       if (!offers(*entry, scalar)) continue;
       NarrowPhaseSettings settings{.scalar = scalar};
@@ -78,9 +80,12 @@ campaign::Campaign campaign_of(const RunOptions& options) {
         group.narrow.push_back({entry, settings, true, options.batch});
     }
   }
-  group.concave = measure::concave_choices(
-      kinds::select(concave_phases(), kinds::split_names(options.concave), "concave phase"),
-      kinds::select(mid_phases(), kinds::split_names(options.mids), "mid-phase"), options.scalars);
+  group.concave =
+      measure::concave_choices(kinds::select(registry::entries<ConcaveEntry>(),
+                                             kinds::split_names(options.concave), "concave phase"),
+                               kinds::select(registry::entries<MidPhaseEntry>(),
+                                             kinds::split_names(options.mids), "mid-phase"),
+                               options.scalars);
   group.tasks = options.tasks;
   group.pairing = options.product ? campaign::Pairing::product : campaign::Pairing::separate;
   group.time_limit = options.time_limit;

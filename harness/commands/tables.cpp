@@ -52,7 +52,8 @@ std::optional<record::RowOrigin> origin_among(std::span<const Entry> entries,
 // Supplies origins for results without the column `origin`.
 std::optional<record::RowOrigin> origin_of(bool narrow, const std::string& name) {
   if (!narrow && name == stats::limit_label) return record::RowOrigin::limit;
-  return narrow ? origin_among(narrow_phases(), name) : origin_among(broad_phases(), name);
+  return narrow ? origin_among(registry::entries<NarrowPhaseEntry>(), name)
+                : origin_among(registry::entries<BroadPhaseEntry>(), name);
 }
 
 int write_of_cells(const std::filesystem::path& folder, const std::filesystem::path& out) {

@@ -77,7 +77,7 @@ inline bool is_group(std::string_view name) {
 // Returns the list for a message about a wrong request.
 inline std::string names_stopping_by_duality_gap() {
   std::string names;
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (entry.traits.stops_by_duality_gap) names += (names.empty() ? "" : ", ") + entry.info.name;
   }
   return names;

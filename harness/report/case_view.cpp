@@ -171,7 +171,7 @@ OrderedJson case_views(const std::vector<ListedCase>& cases, const std::filesyst
   for (std::size_t i = 0; i < cases.size(); ++i) {
     subjects.push_back(subject_of(cases[i].c, i, oracle));
   }
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     for (const Precision scalar : {Precision::float64, Precision::float32}) {
       if (is_built(entry.info) && offers(entry, scalar)) ask(entry, scalar, time_limit, subjects);
     }

@@ -54,11 +54,11 @@ std::vector<measure::NarrowChoice> choices(const RecordingRequest& request,
     all.push_back({.entry = entry, .settings = {.scalar = scalar}});
   }
   if (input.bodies.empty()) return all;
-  for (const ConcaveEntry& entry : concave_phases()) {
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     if (entry.info.origin != Origin::ours || !is_built(entry.info)) continue;
-    const auto made = measure::concave_choices(std::array{&entry},
-                                               std::array{find_mid_phase(measure::usual_mid_phase)},
-                                               std::array{Precision::float64});
+    const auto made = measure::concave_choices(
+        std::array{&entry}, std::array{registry::find<MidPhaseEntry>(measure::usual_mid_phase)},
+        std::array{Precision::float64});
     all.insert(all.end(), made.begin(), made.end());
   }
   return all;

@@ -119,7 +119,8 @@ std::vector<double> ScenePairs::distances(double time_limit) const {
     if (!grade::stands_by(outcome)) return none;
     return outcome.answer == Answer::touching ? 0.0 : outcome.distance;
   };
-  const measure::NarrowChoice certified{.entry = find_narrow_phase("certified"), .settings = {}};
+  const measure::NarrowChoice certified{.entry = registry::find<NarrowPhaseEntry>("certified"),
+                                        .settings = {}};
   std::vector<double> found = ask(certified, record::QueryTask::distance, time_limit, none, of);
   const auto add = [&](const std::vector<double>& more) {
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -128,7 +129,7 @@ std::vector<double> ScenePairs::distances(double time_limit) const {
   };
   add(ask(certified, record::QueryTask::penetration, time_limit, none, of));
   if (input_->bodies.empty()) return found;
-  const auto fused = measure::concave_choices(std::array{find_concave_phase("fused")}, {},
+  const auto fused = measure::concave_choices(std::array{registry::find<ConcaveEntry>("fused")}, {},
                                               std::array{Precision::float64});
   add(ask(fused.at(0), record::QueryTask::distance, time_limit, none, of));
   return found;

@@ -64,7 +64,7 @@ const Contestant* SampleSet::find(const std::string& label) const {
 
 const Contestant& SampleSet::baseline() const {
   for (const std::string& label :
-       {twin.label, std::string(key.narrow() ? "gjk double" : "sweep-and-prune")}) {
+       {twin.label, std::string(key.narrow() ? "gjk double" : "sweep-one-axis")}) {
     if (const Contestant* found = find(label)) return *found;
   }
   const auto ours = std::ranges::find_if(contestants, &Contestant::is_ours);

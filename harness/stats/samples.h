@@ -97,7 +97,7 @@ struct Check {
 inline constexpr const char* limit_label = "limit";
 
 struct Contestant {
-  std::string label;  // a label such as "sweep-and-prune" or "gjk double 1e-06"
+  std::string label;  // a label such as "sweep-one-axis" or "gjk double 1e-06"
   std::optional<record::RowOrigin> origin;  // empty if an older file does not have it
   bool depth_is_bound = false;              // its depths are upper bounds by design
   std::int64_t batch = -1;  // greatest number of pairs of a call; -1: the usual number
@@ -119,7 +119,7 @@ struct SampleSet {
   bool suspect = false;
 
   const Contestant* find(const std::string& label) const;
-  // Returns the reference of the ratios: the contestant with a twin, else sweep-and-prune or gjk in
+  // Returns the reference of the ratios: the contestant with a twin, else sweep-one-axis or gjk in
   // double, else the first of ours, else the first.
   const Contestant& baseline() const;
 };

@@ -99,7 +99,7 @@ NarrowChain parse_chain(std::string_view text) {
       throw base::InputError(fmt::format("'{}' in a chain of narrow phases; expected names", name));
     }
   }
-  return kinds::select(narrow_phases(), names, "narrow phase");
+  return kinds::select(registry::entries<NarrowPhaseEntry>(), names, "narrow phase");
 }
 
 std::string Configuration::phases_name() const {

@@ -66,7 +66,7 @@ struct Configuration {
   // The name of the chain or of the concave phase, or "none".
   std::string phases_name() const;
   std::string narrow_name() const;  // a name such as "gjk double 1e-06 cap 8" or "none"
-  // A name such as "hull-16 / tight / sweep-and-prune / gjk double"; distinct configurations have
+  // A name such as "hull-16 / tight / sweep-one-axis / gjk double"; distinct configurations have
   // distinct names.
   std::string name() const;
 };

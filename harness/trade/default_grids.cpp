@@ -11,15 +11,9 @@
 namespace touchstone::trade {
 namespace {
 
-constexpr std::array<std::string_view, 9> broad_names = {"sweep-and-prune",
-                                                         "incremental-sweep-and-prune",
-                                                         "packed-rtree",
-                                                         "verlet-list",
-                                                         "hierarchical-grid",
-                                                         "linear-bvh",
-                                                         "dynamic-bvh",
-                                                         "uniform-grid",
-                                                         "naive"};
+constexpr std::array<std::string_view, 9> broad_names = {
+    "sweep-one-axis", "sweep-and-prune", "packed-rtree", "verlet-list", "hierarchical-grid",
+    "linear-bvh",     "dynamic-bvh",     "uniform-grid", "naive"};
 // The peers at the end are left out if they are not built. A pair that gjk-lanes does not take goes
 // to the algorithm behind it.
 constexpr std::array<std::string_view, 16> narrow_names = {"gjk",
@@ -62,7 +56,7 @@ constexpr std::array<std::string_view, 20> forms = {"sphere",
 bool is_built_chain(std::string_view name) {
   for (;;) {
     const std::size_t plus = name.find('+');
-    const NarrowPhaseEntry* entry = find_narrow_phase(name.substr(0, plus));
+    const NarrowPhaseEntry* entry = registry::find<NarrowPhaseEntry>(name.substr(0, plus));
     if (entry == nullptr || !is_built(entry->info)) return false;
     if (plus == std::string_view::npos) return true;
     name.remove_prefix(plus + 1);
@@ -91,7 +85,8 @@ std::vector<BoxChoice> box_choices() {
 
 std::vector<const BroadPhaseEntry*> broad_entries() {
   std::vector<const BroadPhaseEntry*> entries;
-  for (const std::string_view name : broad_names) entries.push_back(find_broad_phase(name));
+  for (const std::string_view name : broad_names)
+    entries.push_back(registry::find<BroadPhaseEntry>(name));
   return entries;
 }
 
@@ -148,7 +143,7 @@ std::vector<TradeGrid> default_grids(Task task, const BroadPhaseEntry& broad) {
   whole.representations = {same_for_all(proxies::parse_representation("mesh")),
                            same_for_all(proxies::parse_representation("parts"))};
   whole.broad = {&broad};
-  whole.concave = {find_concave_phase("fused")};
+  whole.concave = {registry::find<ConcaveEntry>("fused")};
   std::vector<TradeGrid> grids = {
       algorithms, tolerances, caps, boxes, broads, whole, representation_grid(broad)};
   // A verdict needs no number, so one tolerance is enough.

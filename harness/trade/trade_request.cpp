@@ -91,7 +91,7 @@ TradeGrid read_grid(files::TomlTable& table) {
   std::vector<std::string> names = {"sweep-and-prune"};
   read_axis(table, "broad", names, text_of);
   try {
-    grid.broad = kinds::select(broad_phases(), names, "broad phase");
+    grid.broad = kinds::select(registry::entries<BroadPhaseEntry>(), names, "broad phase");
   } catch (const base::InputError& error) {
     table.fail("broad", error.what());
   }
@@ -99,7 +99,7 @@ TradeGrid read_grid(files::TomlTable& table) {
   names = {"none"};
   read_axis(table, "concave", names, text_of);
   try {
-    grid.concave = kinds::select(concave_phases(), names, "concave phase");
+    grid.concave = kinds::select(registry::entries<ConcaveEntry>(), names, "concave phase");
   } catch (const base::InputError& error) {
     table.fail("concave", error.what());
   }

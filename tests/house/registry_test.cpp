@@ -30,11 +30,11 @@ void check_info(std::span<const Entry> entries) {
   }
 }
 
-TEST(Registry, BroadPhasesAreWellDescribed) { check_info(broad_phases()); }
+TEST(Registry, BroadPhasesAreWellDescribed) { check_info(registry::entries<BroadPhaseEntry>()); }
 
 TEST(Registry, NarrowPhasesAreWellDescribed) {
-  check_info(narrow_phases());
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  check_info(registry::entries<NarrowPhaseEntry>());
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     EXPECT_FALSE(entry.tasks.empty()) << entry.info.name;
     EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
     EXPECT_EQ(entry.tolerance.find('\n'), std::string::npos) << entry.info.name;
@@ -42,32 +42,32 @@ TEST(Registry, NarrowPhasesAreWellDescribed) {
 }
 
 TEST(Registry, ContactManifoldsAreWellDescribed) {
-  check_info(contact_manifolds());
-  for (const ManifoldEntry& entry : contact_manifolds()) {
+  check_info(registry::entries<ManifoldEntry>());
+  for (const ManifoldEntry& entry : registry::entries<ManifoldEntry>()) {
     EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
     EXPECT_TRUE(offers(entry, ShapeKind::box, ShapeKind::box)) << entry.info.name;
   }
 }
 
 TEST(Registry, RayCastsAreWellDescribed) {
-  check_info(ray_casts());
-  for (const RayCastEntry& entry : ray_casts()) {
+  check_info(registry::entries<RayCastEntry>());
+  for (const RayCastEntry& entry : registry::entries<RayCastEntry>()) {
     EXPECT_TRUE(offers(entry, RayTask::closest)) << entry.info.name;
     EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
   }
 }
 
 TEST(Registry, SceneRayCastsAreWellDescribed) {
-  check_info(scene_ray_casts());
-  for (const SceneRayCastEntry& entry : scene_ray_casts()) {
+  check_info(registry::entries<SceneRayCastEntry>());
+  for (const SceneRayCastEntry& entry : registry::entries<SceneRayCastEntry>()) {
     EXPECT_FALSE(entry.tasks.empty()) << entry.info.name;
   }
 }
 
 TEST(Registry, MidPhasesAndConcavePhasesAreWellDescribed) {
-  check_info(mid_phases());
-  check_info(concave_phases());
-  for (const ConcaveEntry& entry : concave_phases()) {
+  check_info(registry::entries<MidPhaseEntry>());
+  check_info(registry::entries<ConcaveEntry>());
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     const bool in_float = offers(entry, ConcaveTask::intersect, Precision::float32);
     EXPECT_TRUE(offers(entry, ConcaveTask::intersect, Precision::float64) ||
                 (entry.info.origin == Origin::peer && in_float))
@@ -76,8 +76,8 @@ TEST(Registry, MidPhasesAndConcavePhasesAreWellDescribed) {
 }
 
 TEST(Registry, CastsAreWellDescribed) {
-  check_info(casts());
-  for (const CastEntry& entry : casts()) {
+  check_info(registry::entries<CastEntry>());
+  for (const CastEntry& entry : registry::entries<CastEntry>()) {
     EXPECT_FALSE(entry.scalars.empty()) << entry.info.name;
     EXPECT_TRUE(offers(entry, ShapeKind::sphere, ShapeKind::sphere, false) ||
                 offers(entry, ShapeKind::hull, ShapeKind::hull, false))
@@ -89,36 +89,50 @@ TEST(Registry, CastsAreWellDescribed) {
 }
 
 TEST(Registry, PointQueriesAreWellDescribed) {
-  check_info(point_queries());
-  for (const PointQueryEntry& entry : point_queries())
+  check_info(registry::entries<PointQueryEntry>());
+  for (const PointQueryEntry& entry : registry::entries<PointQueryEntry>())
     EXPECT_FALSE(entry.tasks.empty()) << entry.info.name;
 }
 
-TEST(Registry, ContinuousCollisionIsWellDescribed) { check_info(ccds()); }
-
-// Each entry of a list is found by its name.
-template <class Entry>
-void expect_found(std::span<const Entry> entries, const Entry* (*find)(std::string_view)) {
-  for (const Entry& entry : entries) EXPECT_EQ(find(entry.info.name), &entry);
-  EXPECT_EQ(find("no such"), nullptr);
-  EXPECT_EQ(find(""), nullptr);
-}
+TEST(Registry, ContinuousCollisionIsWellDescribed) { check_info(registry::entries<CcdEntry>()); }
 
 TEST(Registry, FindsByNameAndOnlyWhatIsThere) {
-  expect_found(broad_phases(), find_broad_phase);
-  expect_found(narrow_phases(), find_narrow_phase);
-  expect_found(contact_manifolds(), find_contact_manifold);
-  expect_found(ray_casts(), find_ray_cast);
-  expect_found(scene_ray_casts(), find_scene_ray_cast);
-  expect_found(point_queries(), find_point_query);
-  expect_found(mid_phases(), find_mid_phase);
-  expect_found(concave_phases(), find_concave_phase);
-  expect_found(casts(), find_cast);
-  expect_found(ccds(), find_ccd);
+  registry::for_each_kind([]<class Entry>() {
+    for (const Entry& entry : registry::entries<Entry>()) {
+      EXPECT_EQ(registry::find<Entry>(entry.info.name), &entry);
+    }
+    EXPECT_EQ(registry::find<Entry>("no such"), nullptr);
+    EXPECT_EQ(registry::find<Entry>(""), nullptr);
+  });
+}
+
+TEST(Registry, AWordNamesOneKind) {
+  std::set<std::string_view> words;
+  std::vector<std::string_view> kinds;
+  registry::for_each_kind([&]<class Entry>() {
+    const KindWords& kind = kind_words<Entry>;
+    EXPECT_FALSE(registry::entries<Entry>().empty()) << kind.word;
+    EXPECT_FALSE(kind.title.empty()) << kind.word;
+    kinds.push_back(kind.word);
+    std::vector<std::string_view> all(kind.other.begin(), kind.other.end());
+    all.push_back(kind.word);
+    for (const std::string_view word : all) {
+      if (word.empty()) continue;
+      EXPECT_TRUE(words.insert(word).second) << word << " names two kinds";
+      const auto named = registry::kind_named(word);
+      ASSERT_TRUE(named) << word;
+      EXPECT_EQ(named->word, kind.word);
+    }
+  });
+  EXPECT_EQ(kinds,
+            (std::vector<std::string_view>{"box", "pair", "manifold", "ray", "scene-ray", "point",
+                                           "mid-phase", "mesh", "cast", "feature"}));
+  EXPECT_FALSE(registry::kind_named(""));
+  EXPECT_FALSE(registry::kind_named("sphere"));
 }
 
 TEST(Registry, OffersAskForTheKindsInEitherOrder) {
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     for (const ShapeKind a : all_shape_kinds) {
       for (const ShapeKind b : all_shape_kinds) {
         for (const Task task : entry.tasks) {

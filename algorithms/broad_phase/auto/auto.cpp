@@ -1,4 +1,4 @@
-// Auto: the Verlet list, which is the packed R-tree where no list pays, the dynamic BVH or incremental
+// Auto: the Verlet list, which is the packed R-tree where no list pays, the dynamic BVH or
 // sweep and prune, whichever suits the frames that come.
 // Paper:   Rice, "The Algorithm Selection Problem", Advances in Computers 15, 1976; Karlin, Manasse,
 //          Rudolph, Sleator, "Competitive Snoopy Caching", Algorithmica 3, 1988.
@@ -12,7 +12,7 @@
 //             boxes, and drop the one before. The first frame after a build suffices.
 //          5. While changes are few, look now and then how far some of the bodies move, and estimate
 //             how many end points they pass (endpoint_passes.cpp). This and the counts say what the
-//             dynamic BVH and incremental sweep and prune would cost (frame_costs.cpp). When the one
+//             dynamic BVH and sweep and prune would cost (frame_costs.cpp). When the one
 //             in charge has lost a part of what the other's build costs, that one takes over
 //             (looks.cpp). Where only pairs of some bodies are asked for, these stand for all.
 // Departs: it decides by counts and not by times, so that the order of the pairs does not depend on
@@ -38,7 +38,7 @@ namespace touchstone::entries {
 
 std::vector<BroadPhaseEntry> broad_phase_verlet_list();
 std::vector<BroadPhaseEntry> broad_phase_dynamic_bvh();
-std::vector<BroadPhaseEntry> broad_phase_incremental_sweep_and_prune();
+std::vector<BroadPhaseEntry> broad_phase_sweep_and_prune();
 
 }  // namespace touchstone::entries
 
@@ -48,8 +48,8 @@ namespace {
 std::unique_ptr<BroadPhase> make(Candidate candidate, Executor& executor) {
   switch (candidate) {
     case Candidate::dynamic_bvh: return entries::broad_phase_dynamic_bvh()[0].make(executor);
-    case Candidate::incremental_sweep_and_prune:
-      return entries::broad_phase_incremental_sweep_and_prune()[0].make(executor);
+    case Candidate::sweep_and_prune:
+      return entries::broad_phase_sweep_and_prune()[0].make(executor);
     default: return entries::broad_phase_verlet_list()[0].make(executor);
   }
 }
@@ -150,7 +150,7 @@ std::vector<BroadPhaseEntry> broad_phase_auto() {
   return {{.info = {.name = "auto",
                     .citation = "Rice, \"The Algorithm Selection Problem\", Advances in Computers "
                                 "15, 1976; of verlet-list, which is packed-rtree where no list "
-                                "pays, dynamic-bvh and incremental-sweep-and-prune"},
+                                "pays, dynamic-bvh and sweep-and-prune"},
            .make = [](Executor& executor) { return std::make_unique<Auto>(executor); }}};
 }
 

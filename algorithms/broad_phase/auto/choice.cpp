@@ -24,8 +24,8 @@ bool Choice::look(const FrameChange& change, Answers& answers) {
   counts.pairs = answers.pairs_among(counts.bodies);
   counts.changes = static_cast<double>(answers.changes);
   if (!looks_.look(change, candidate_, counts, answers.tally)) return false;
-  candidate_ = candidate_ == Candidate::dynamic_bvh ? Candidate::incremental_sweep_and_prune
-                                                    : Candidate::dynamic_bvh;
+  candidate_ =
+      candidate_ == Candidate::dynamic_bvh ? Candidate::sweep_and_prune : Candidate::dynamic_bvh;
   return true;
 }
 

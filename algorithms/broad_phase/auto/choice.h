@@ -63,8 +63,7 @@ class Choice {
   static constexpr int most_patience = 64;
 
   static bool is_for_rest(Candidate candidate) {
-    return candidate == Candidate::dynamic_bvh ||
-           candidate == Candidate::incremental_sweep_and_prune;
+    return candidate == Candidate::dynamic_bvh || candidate == Candidate::sweep_and_prune;
   }
   // True if the changes are few enough for a world that nearly rests, or if bodies only move and
   // are in so few pairs that the dynamic BVH costs a fifth less than the packed R-tree. What is

@@ -1,5 +1,5 @@
 // Part of auto: an estimate of how many end points pass each other in a frame, which is what
-// incremental sweep and prune pays for, and of how bodies move otherwise.
+// sweep and prune pays for, and of how bodies move otherwise.
 #pragma once
 
 #include <array>

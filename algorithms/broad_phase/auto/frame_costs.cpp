@@ -29,7 +29,7 @@ double dynamic_bvh_cost(const FrameCounts& frame) {
          frame.selections * frame.moved * (10 + 10 * pairs_a_body);
 }
 
-double incremental_sweep_and_prune_cost(const FrameCounts& frame) {
+double sweep_and_prune_cost(const FrameCounts& frame) {
   const double moves = frame.moved * frame.motion.axes;
   // The more end points move, the less does the processor foresee how far each goes.
   const double unforeseen = std::log2(std::max(moves / 90, 1.0));
@@ -50,7 +50,7 @@ double dynamic_bvh_build_cost(const FrameCounts& frame) {
   return 60 * frame.bodies + 25 * frame.pairs;
 }
 
-double incremental_sweep_and_prune_build_cost(const FrameCounts& frame, double overlapping) {
+double sweep_and_prune_build_cost(const FrameCounts& frame, double overlapping) {
   return (100 + 0.1 * overlapping * frame.bodies) * frame.bodies;
 }
 

@@ -6,7 +6,7 @@
 
 namespace touchstone {
 
-enum class Candidate : std::uint8_t { verlet_list, dynamic_bvh, incremental_sweep_and_prune };
+enum class Candidate : std::uint8_t { verlet_list, dynamic_bvh, sweep_and_prune };
 
 // How a body moves in a frame, in the mean over those that do.
 struct MoverMotion {
@@ -32,13 +32,13 @@ struct FrameCounts {
 // Returns what a frame costs, and what a build does, in nanoseconds of the machine on which they
 // were measured: elsewhere ratios and differences have a meaning, the numbers have none.
 double dynamic_bvh_cost(const FrameCounts& frame);
-double incremental_sweep_and_prune_cost(const FrameCounts& frame);
+double sweep_and_prune_cost(const FrameCounts& frame);
 // What a body that moves costs the dynamic BVH where many do and all pairs are asked for, and what
 // each body costs the packed R-tree, in nanoseconds of the same machine.
 double moving_cost(double pairs_a_body);
 double searching_cost(double pairs_a_body);
 double dynamic_bvh_build_cost(const FrameCounts& frame);
 // `overlapping` is the share of all pairs of boxes that overlap on the axis of the sweep.
-double incremental_sweep_and_prune_build_cost(const FrameCounts& frame, double overlapping);
+double sweep_and_prune_build_cost(const FrameCounts& frame, double overlapping);
 
 }  // namespace touchstone

@@ -40,13 +40,12 @@ bool Looks::look(const FrameChange& change, Candidate candidate, FrameCounts cou
   counts.motion = *motion;
 
   const double bvh = dynamic_bvh_cost(counts);
-  const double sap = incremental_sweep_and_prune_cost(counts);
+  const double sap = sweep_and_prune_cost(counts);
   most_wait_ = most_wait(is_bvh ? bvh : sap);
   const double gain = is_bvh ? (1 - least_gain) * bvh - sap : (1 - least_gain) * sap - bvh;
   lost_ = std::max(lost_ + frames * gain, 0.0);
-  const double build = is_bvh
-                           ? incremental_sweep_and_prune_build_cost(counts, passes_.overlapping())
-                           : dynamic_bvh_build_cost(counts);
+  const double build = is_bvh ? sweep_and_prune_build_cost(counts, passes_.overlapping())
+                              : dynamic_bvh_build_cost(counts);
   if (lost_ <= patience_ * build) return false;
   start();
   patience_ = std::min(2 * patience_, most_patience);

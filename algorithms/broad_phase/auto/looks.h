@@ -1,5 +1,5 @@
 // Part of auto: while few bodies move, when to take a look at what the dynamic BVH costs and what
-// incremental sweep and prune does, and when the other one is to take over.
+// sweep and prune does, and when the other one is to take over.
 // Paper:   Karlin, Manasse, Rudolph, Sleator, "Competitive Snoopy Caching", Algorithmica 3, 1988
 //          (change over when as much has been lost as the change costs).
 // Departs: at first a thirty-second of the cost suffices; it doubles with each change.

@@ -1,5 +1,5 @@
 // A stack of lists of boxes, for searches that descend a tree and pass on, at each step, the boxes
-// that overlap a bound. Used by kd-tree, loose-octree, incremental-sweep-and-prune and bvh.
+// that overlap a bound. Used by kd-tree, loose-octree, sweep-and-prune and bvh.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Insertion sort for items that are almost in order, as boxes are from one frame to the next. Used
-// by sweep-and-prune and sort-and-sweep.
+// by sweep-one-axis and sweep-three-axes.
 // Paper: Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992.
 #pragma once
 

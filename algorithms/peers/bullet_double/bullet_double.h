@@ -19,6 +19,7 @@
 
 #include "algorithms/contact_manifold.h"
 #include "algorithms/narrow_phase.h"
+#include "algorithms/peers/not_built.h"
 
 namespace touchstone::bullet {
 

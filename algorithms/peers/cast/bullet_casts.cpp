@@ -15,6 +15,7 @@
 // Cost:    GJK steps; bullet-continuous-cast runs a whole GJK, and EPA, a step.
 #include "algorithms/cast.h"
 
+#include "algorithms/peers/not_built.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
@@ -134,11 +135,6 @@ constexpr auto make_gjk = make_cast<Gjk>;
 constexpr auto make_continuous = make_cast<Continuous>;
 
 }  // namespace
-}  // namespace touchstone::bullet
-#else
-#include "algorithms/peers/not_built.h"
-namespace touchstone::bullet {
-using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

@@ -12,6 +12,7 @@
 // Cost:    memory is allocated for each query.
 #include "algorithms/concave_phase.h"
 
+#include "algorithms/peers/not_built.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
@@ -237,11 +238,6 @@ std::unique_ptr<ConcavePhase> make_tree(const ConcaveSettings& settings) {
 }
 
 }  // namespace
-}  // namespace touchstone::bullet
-#else
-#include "algorithms/peers/not_built.h"
-namespace touchstone::bullet {
-using namespace not_built;
 }  // namespace touchstone::bullet
 #endif
 

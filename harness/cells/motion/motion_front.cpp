@@ -68,9 +68,10 @@ MotionRequest default_motion_trade(const std::filesystem::path& scene,
   request.scenes = {scene};
   request.overrides = {overrides};
   request.threads = {threads};
-  request.broad = {find_broad_phase(broad_name)};
+  request.broad = {registry::find<BroadPhaseEntry>(broad_name)};
   request.casts = {cast_chain(ours_in_one_chain)};
-  for (const CastEntry* entry : kinds::select(casts(), {"ours", "peers"}, "cast"))
+  for (const CastEntry* entry :
+       kinds::select(registry::entries<CastEntry>(), {"ours", "peers"}, "cast"))
     request.casts.push_back({entry});
   for (const char* names : narrow_names) request.narrow.push_back(narrow_chain(names));
   for (int substeps = 1; substeps <= most_substeps; substeps *= 2)

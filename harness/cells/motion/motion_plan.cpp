@@ -26,8 +26,10 @@ struct MotionScene {
   void find_truth(int threads) {
     if (!truth.empty()) return;
     Executor executor(threads);
-    measure::ContinuousSteps exact(input, {find_broad_phase("naive"), {find_cast("exact")}, {}, 1},
-                                   executor);
+    measure::ContinuousSteps exact(
+        input,
+        {registry::find<BroadPhaseEntry>("naive"), {registry::find<CastEntry>("exact")}, {}, 1},
+        executor);
     exact.play();
     truth = exact.answers();
   }
@@ -270,9 +272,11 @@ std::vector<kinds::PlannedSet> plan_motion(const MotionRequest& request) {
   return cells;
 }
 
-CastChain cast_chain(const std::string& names) { return chain(names, casts(), "cast"); }
+CastChain cast_chain(const std::string& names) {
+  return chain(names, registry::entries<CastEntry>(), "cast");
+}
 NarrowChain narrow_chain(const std::string& names) {
-  return chain(names, narrow_phases(), "narrow phase");
+  return chain(names, registry::entries<NarrowPhaseEntry>(), "narrow phase");
 }
 
 }  // namespace touchstone::cells

@@ -74,7 +74,7 @@ void expect_algorithms(files::TomlTable& table, const CaseSelection& selection,
   expect("narrow", selection.pair,
          [&](const auto& list) { narrow_phases_to_grade(list, request.scalars); });
   expect("broad", selection.box, [](const auto& list) {
-    kinds::select(broad_phases(), kinds::split_names(list), "broad phase");
+    kinds::select(registry::entries<BroadPhaseEntry>(), kinds::split_names(list), "broad phase");
   });
   for (const auto& [kind, names] : selection.others) {
     expect(kind->old_name(), names, [&, kind = kind](const auto& list) {

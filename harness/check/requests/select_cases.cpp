@@ -48,8 +48,9 @@ struct Selectable {
 };
 
 std::vector<Selectable> all_selectable() {
-  std::vector<Selectable> all = {{"pair", "narrow", kinds::infos_of(narrow_phases())},
-                                 {"box", "broad", kinds::infos_of(broad_phases())}};
+  std::vector<Selectable> all = {
+      {"pair", "narrow", kinds::infos_of(registry::entries<NarrowPhaseEntry>())},
+      {"box", "broad", kinds::infos_of(registry::entries<BroadPhaseEntry>())}};
   for (const kinds::Kind* kind : kinds::kinds()) {
     all.push_back({kind->name(), kind->old_name(), kind->algorithms()});
   }
@@ -112,8 +113,8 @@ void select_algorithms(const CaseSelection& selection, const char* fallback,
     return none_named ? std::string(fallback) : std::string("none");
   };
   request.narrow = narrow_phases_to_grade(named("pair", selection.pair), request.scalars);
-  request.broad =
-      kinds::select(broad_phases(), kinds::split_names(named("box", selection.box)), "broad phase");
+  request.broad = kinds::select(registry::entries<BroadPhaseEntry>(),
+                                kinds::split_names(named("box", selection.box)), "broad phase");
   request.contestants.clear();
   for (const kinds::Kind* kind : kinds::kinds()) {
     const auto at = selection.others.find(kind);

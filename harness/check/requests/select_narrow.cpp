@@ -16,7 +16,7 @@ std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& n
   const auto is_named = [&](const NarrowPhaseEntry* entry) {
     return std::ranges::find(list, entry->info.name) != list.end();
   };
-  auto chosen = kinds::select(narrow_phases(), list, "narrow phase");
+  auto chosen = kinds::select(registry::entries<NarrowPhaseEntry>(), list, "narrow phase");
   std::erase_if(chosen, [&](const NarrowPhaseEntry* entry) {
     return entry->info.origin == Origin::oracle && !is_named(entry);
   });

@@ -103,8 +103,8 @@ std::vector<char> read_resting(const std::string& file,
 }
 
 void pairs(const PairsOptions& options) {
-  const auto entries =
-      kinds::select(broad_phases(), kinds::split_names(options.broad), "broad phase");
+  const auto entries = kinds::select(registry::entries<BroadPhaseEntry>(),
+                                     kinds::split_names(options.broad), "broad phase");
   const std::vector<scene::BoxFrame> frames = scene::read_box_frames(options.file);
   const std::vector<char> is_resting =
       options.resting.empty() ? std::vector<char>{} : read_resting(options.resting, frames);

@@ -95,7 +95,7 @@ void print_summary(const std::vector<CastAnswers>& all) {
 
 // Proves the exact answer of each case that the exact cast takes, and writes one certificate a line.
 void save_cast_proofs(const std::vector<files::CastCase>& cases, const CastOptions& options) {
-  const CastEntry& exact = *find_cast("exact");
+  const CastEntry& exact = *registry::find<CastEntry>("exact");
   std::vector<std::size_t> taken;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const files::CastCase& c = cases[i];
@@ -129,7 +129,8 @@ void cast(const CastOptions& options) {
         "--save-certificates: there are proofs only of casts where contact at time 0 counts; "
         "expected --start counts");
   }
-  const auto entries = kinds::select(casts(), kinds::split_names(options.casts), "cast");
+  const auto entries =
+      kinds::select(registry::entries<CastEntry>(), kinds::split_names(options.casts), "cast");
   const std::vector<files::CastCase> cases = files::read_cast_cases(options.cases);
   files::check_outputs({{"CASES", options.cases}},
                        {{"--out", options.out}, {"--save-certificates", options.saved}});

@@ -235,8 +235,9 @@ int run_ccd(const CcdOptions& options) {
   } else {
     throw base::InputError("--kind is missing; expected vertex-face or edge-edge with a file");
   }
-  auto entries = kinds::select(ccds(), kinds::split_names(options.algorithms),
-                               "algorithm of continuous collision");
+  auto entries =
+      kinds::select(registry::entries<CcdEntry>(), kinds::split_names(options.algorithms),
+                    "algorithm of continuous collision");
   const files::CcdQueries first = files::read_ccd_queries(files.front().file);
   std::vector<files::NamedFile> inputs;
   for (const files::CcdFile& file : files) inputs.push_back({"QUERIES", file.file});

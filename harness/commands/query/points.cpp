@@ -152,8 +152,8 @@ void ask_points(const PointsOptions& options) {
   expect_without_certificates(options.mesh, "MESH");
   expect_without_certificates(options.points, "--points");
   expect_without_certificates(options.out, "--out");
-  const auto entries =
-      kinds::select(point_queries(), kinds::split_names(options.query), "point query");
+  const auto entries = kinds::select(registry::entries<PointQueryEntry>(),
+                                     kinds::split_names(options.query), "point query");
   geometry::Mesh read = geometry::read_surface(options.mesh);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   if (options.task == PointTask::side) check_closed(options.mesh, mesh);

@@ -109,7 +109,8 @@ bool asks_concave_phases(const QueryOptions& options,
   if (!options.asked.of_convex) return true;
   if (!std::ranges::all_of(cases, &files::ConcaveCase::is_convex)) return true;
   return std::ranges::any_of(kinds::split_names(options.narrow), [](const std::string& name) {
-    return find_concave_phase(name) != nullptr && find_narrow_phase(name) == nullptr;
+    return registry::find<ConcaveEntry>(name) != nullptr &&
+           registry::find<NarrowPhaseEntry>(name) == nullptr;
   });
 }
 
@@ -150,8 +151,8 @@ void ask_concave_phases(const QueryOptions& options, const HeededBySome& heeded,
 }
 
 void ask_narrow_phases(const QueryOptions& options, const std::vector<files::Case>& cases) {
-  const auto entries =
-      kinds::select(narrow_phases(), kinds::split_names(options.narrow), "narrow phase");
+  const auto entries = kinds::select(registry::entries<NarrowPhaseEntry>(),
+                                     kinds::split_names(options.narrow), "narrow phase");
   for (const NarrowPhaseEntry* entry : entries) {
     if (!options.settings.duality_gap || entry->traits.stops_by_duality_gap) continue;
     throw base::InputError(

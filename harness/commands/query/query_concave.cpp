@@ -38,8 +38,10 @@ class ConcaveQueryRun {
  public:
   ConcaveQueryRun(const ConcaveQuery& query, const std::vector<files::ConcaveCase>& cases)
       : query_(query), cases_(cases) {
-    const auto* mid = kinds::select(mid_phases(), {query.mid}, "mid-phase").at(0);
-    const auto* parts = kinds::select(narrow_phases(), {query.parts}, "narrow phase").at(0);
+    const auto* mid =
+        kinds::select(registry::entries<MidPhaseEntry>(), {query.mid}, "mid-phase").at(0);
+    const auto* parts =
+        kinds::select(registry::entries<NarrowPhaseEntry>(), {query.parts}, "narrow phase").at(0);
     if (!answers_for_all(*parts)) {
       throw base::InputError(fmt::format(
           "--parts: the narrow phase '{}' does not answer every task for all convex shapes; "
@@ -189,8 +191,8 @@ void write_contacts(const std::string& file, const std::vector<files::ConcaveCas
 }  // namespace
 
 void query_concave(const ConcaveQuery& query, const std::vector<files::ConcaveCase>& cases) {
-  const auto entries =
-      kinds::select(concave_phases(), kinds::split_names(query.names), "concave phase");
+  const auto entries = kinds::select(registry::entries<ConcaveEntry>(),
+                                     kinds::split_names(query.names), "concave phase");
   const ConcaveQueryRun run(query, cases);
   files::check_outputs(
       {{"CASES", query.cases}},

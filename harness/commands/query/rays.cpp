@@ -118,7 +118,8 @@ int verify_ray_proofs(const std::string& file) {
 }
 
 void cast_rays(const RaysOptions& options) {
-  const auto entries = kinds::select(ray_casts(), kinds::split_names(options.cast), "ray cast");
+  const auto entries = kinds::select(registry::entries<RayCastEntry>(),
+                                     kinds::split_names(options.cast), "ray cast");
   geometry::Mesh read = geometry::read_surface(options.target);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Ray> rays = read_rays(options.rays);

@@ -128,8 +128,8 @@ void cast_rays_at_scene(const RaysOptions& options) {
   if (options.settings.scalar != Precision::float64) {
     throw base::InputError("--scalar float: rays at scenes are cast in double alone");
   }
-  const auto entries =
-      kinds::select(scene_ray_casts(), kinds::split_names(options.cast), "ray cast of scenes");
+  const auto entries = kinds::select(registry::entries<SceneRayCastEntry>(),
+                                     kinds::split_names(options.cast), "ray cast of scenes");
   const scene::Scene scene = scene::load_scene(options.target);
   const std::vector<SceneBody> bodies = bodies_at(scene, options.frame, options.target);
   const std::vector<Ray> rays = read_rays(options.rays);

@@ -20,7 +20,7 @@ void grow(ReferenceOutcome& reference, const Aabb& box) {
 }  // namespace
 
 ConcaveReference::ConcaveReference(std::span<const ConcaveBody> bodies)
-    : oracle_(find_concave_phase("exact")->make({})) {
+    : oracle_(registry::find<ConcaveEntry>("exact")->make({})) {
   oracle_->bind(bodies);
 }
 

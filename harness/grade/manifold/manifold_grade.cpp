@@ -14,7 +14,7 @@ namespace touchstone::grade {
 namespace {
 
 const NarrowPhaseEntry& oracle() {
-  static const NarrowPhaseEntry* const entry = find_narrow_phase("exact");
+  static const NarrowPhaseEntry* const entry = registry::find<NarrowPhaseEntry>("exact");
   return *entry;
 }
 

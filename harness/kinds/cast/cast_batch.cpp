@@ -184,8 +184,8 @@ class CastBatch final : public Batch {
     if (!is_silent || !rounds(cases_[i], form)) return graded;
     CastCallAnswer answer;
     const FormNumbers numbers(range_.seed, range_.first + i);
-    solve_call(*find_cast("exact"), {}, {0, {i}, {parts_in_form(cases_[i], numbers, form)}},
-               answer);
+    solve_call(*registry::find<CastEntry>("exact"), {},
+               {0, {i}, {parts_in_form(cases_[i], numbers, form)}}, answer);
     return grade_cast(outcome, answer.outcomes[0], asked, in_time, *truths_);
   }
 
@@ -214,12 +214,14 @@ class CastKind final : public Kind {
              .tasks = cast_tasks,
              .draw_number = 4}) {}
 
-  std::vector<const AlgorithmInfo*> algorithms() const override { return infos_of(casts()); }
+  std::vector<const AlgorithmInfo*> algorithms() const override {
+    return infos_of(registry::entries<CastEntry>());
+  }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
     return contestants_of(
-        *this, casts(), names, scalars,
+        *this, registry::entries<CastEntry>(), names, scalars,
         [](const CastEntry& entry, Precision scalar, std::uint8_t task) {
           CastSettings settings;
           settings.scalar = scalar;

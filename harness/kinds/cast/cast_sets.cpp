@@ -223,7 +223,7 @@ std::vector<PlannedSet> cast_sets(files::TomlTable& table) {
   if (table.has("tolerance")) tolerance = table.number("tolerance", files::positive);
   const std::vector<std::size_t> ways = choices(table, "ways", way_names);
   const std::vector<std::size_t> shapes = choices(table, "shapes", shape_names);
-  const auto entries = selected(table, casts(), "cast");
+  const auto entries = selected(table, registry::entries<CastEntry>(), "cast");
   std::vector<PlannedSet> cells;
   for (const std::size_t way : ways) {
     for (const std::size_t shape : shapes) {

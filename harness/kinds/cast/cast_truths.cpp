@@ -45,7 +45,8 @@ double CastTruths::path(std::size_t i) const {
 }
 
 const CastOutcome& CastTruths::of(std::size_t i) {
-  if (!exact_[i]) exact_[i] = process::solve_cast(*find_cast("exact"), {}, cases_[i]);
+  if (!exact_[i])
+    exact_[i] = process::solve_cast(*registry::find<CastEntry>("exact"), {}, cases_[i]);
   return *exact_[i];
 }
 

@@ -248,12 +248,14 @@ class FeatureKind final : public Kind {
              .tasks = feature_tasks,
              .draw_number = 5}) {}
 
-  std::vector<const AlgorithmInfo*> algorithms() const override { return infos_of(ccds()); }
+  std::vector<const AlgorithmInfo*> algorithms() const override {
+    return infos_of(registry::entries<CcdEntry>());
+  }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
     return contestants_of(
-        *this, ccds(), names, scalars,
+        *this, registry::entries<CcdEntry>(), names, scalars,
         [](const CcdEntry& entry, Precision scalar, std::uint8_t task) {
           return scalar == Precision::float64 && (task == 0 || entry.separations);
         },

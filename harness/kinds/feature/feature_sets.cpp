@@ -178,7 +178,7 @@ std::vector<PlannedSet> feature_sets(files::TomlTable& table, const std::filesys
       listed_numbers(table, "separations", 0, 1e100, "distances in metres");
   if (separations.empty()) separations.push_back(0);
   const std::vector<std::size_t> families = choices(table, "families", feature_family_names);
-  const auto entries = selected(table, ccds(), "ccd");
+  const auto entries = selected(table, registry::entries<CcdEntry>(), "ccd");
   std::vector<PlannedSet> cells;
   const auto add = [&](const std::string& group, const std::string& name, const auto& make_input) {
     for (const double separation : separations) {

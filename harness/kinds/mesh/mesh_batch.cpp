@@ -136,9 +136,9 @@ class MeshBatch final : public Batch {
 
  private:
   static ConcaveSettings settings(Precision scalar) {
-    return {.scalar = scalar, .mid_phase = find_mid_phase("wide-bvh")->make, .narrow_phase = [] {
-              return find_narrow_phase("certified")->make({});
-            }};
+    return {.scalar = scalar,
+            .mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make,
+            .narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); }};
   }
 
   // The bits that an algorithm in this precision is given.
@@ -181,7 +181,7 @@ class MeshBatch final : public Batch {
         std::swap(c.pose_a, c.pose_b);
       }
       pair.add(c);
-      const auto exact = find_concave_phase("exact")->make(settings(Precision::float64));
+      const auto exact = registry::find<ConcaveEntry>("exact")->make(settings(Precision::float64));
       exact->bind(pair.bodies);
       known[i] =
           answer_of(*exact, distance ? ConcaveTask::distance : ConcaveTask::contacts, pair, 0);
@@ -226,13 +226,13 @@ class MeshKind final : public Kind {
               .draw_number = 1}) {}
 
   std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(concave_phases());
+    return infos_of(registry::entries<ConcaveEntry>());
   }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
     return contestants_of(
-        *this, concave_phases(), names, scalars,
+        *this, registry::entries<ConcaveEntry>(), names, scalars,
         [](const ConcaveEntry& entry, Precision scalar, std::uint8_t task) {
           return offers(entry, static_cast<ConcaveTask>(task), scalar);
         },

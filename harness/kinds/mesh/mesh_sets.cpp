@@ -149,14 +149,14 @@ TimedSet make_mesh_set(const MeshBodies& bodies, MeshPlace place, ConcaveTask ta
     input->bodies.push_back({nullptr, {{convex_shape(bodies.convex, input->size, shape), {}, 0}}});
   }
   const std::unique_ptr<ConcavePhase> placing =
-      make_phase(*find_concave_phase("fused"), Precision::float64, false);
+      make_phase(*registry::find<ConcaveEntry>("fused"), Precision::float64, false);
   placing->bind(input->bodies);
   base::Random random(seed, static_cast<std::uint64_t>(place));
   for (std::size_t i = 0; i < count; ++i) place_pair(*input, place, *placing, random);
 
   const bool brute = mesh->triangles.size() <= most_exact_triangles;
-  const std::unique_ptr<ConcavePhase> asked =
-      make_phase(*find_concave_phase(brute ? "exact" : "part-pairs"), Precision::float64, false);
+  const std::unique_ptr<ConcavePhase> asked = make_phase(
+      *registry::find<ConcaveEntry>(brute ? "exact" : "part-pairs"), Precision::float64, false);
   asked->bind(input->bodies);
   MeshAnswers truth(count);
   truth.ask(*asked, task, *input);
@@ -195,7 +195,7 @@ std::vector<PlannedSet> mesh_sets(files::TomlTable& table, const std::filesystem
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> places = choices(table, "places", mesh_place_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", concave_task_names);
-  const auto entries = selected(table, concave_phases(), "concave phase");
+  const auto entries = selected(table, registry::entries<ConcaveEntry>(), "concave phase");
   std::vector<PlannedSet> cells;
   const auto add = [&](const std::string& group, const MeshBodies& bodies, std::size_t task,
                        std::size_t place) {

@@ -30,8 +30,8 @@ Shape convex_shape(std::string_view name, double size, base::Random& random) {
 std::unique_ptr<ConcavePhase> make_phase(const ConcaveEntry& entry, Precision scalar, bool welds) {
   ConcaveSettings settings;
   settings.scalar = scalar;
-  settings.mid_phase = find_mid_phase("wide-bvh")->make;
-  settings.narrow_phase = [] { return find_narrow_phase("certified")->make({}); };
+  settings.mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make;
+  settings.narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); };
   settings.welds = welds;
   return entry.make(settings);
 }

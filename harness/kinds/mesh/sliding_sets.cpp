@@ -166,7 +166,7 @@ std::vector<PlannedSet> sliding_sets(files::TomlTable& table) {
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> grounds = choices(table, "grounds", ground_names);
   const std::vector<std::size_t> bodies = choices(table, "bodies", convex_names);
-  const auto entries = selected(table, concave_phases(), "concave phase");
+  const auto entries = selected(table, registry::entries<ConcaveEntry>(), "concave phase");
   std::vector<PlannedSet> cells;
   for (const std::size_t ground : grounds) {
     const std::size_t squares = ground_squares[ground];

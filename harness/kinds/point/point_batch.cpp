@@ -102,7 +102,8 @@ class PointBatch final : public Batch {
 
   const PointAnswer& truth(std::size_t i, PointTask task) {
     auto& known = truths_[static_cast<std::size_t>(task)];
-    if (known.empty()) known = points_.answers(point_solver(*find_point_query("exact"), task));
+    if (known.empty())
+      known = points_.answers(point_solver(*registry::find<PointQueryEntry>("exact"), task));
     return known[i];
   }
 
@@ -136,13 +137,13 @@ class PointKind final : public Kind {
              .draw_number = 3}) {}
 
   std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(point_queries());
+    return infos_of(registry::entries<PointQueryEntry>());
   }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
     return contestants_of(
-        *this, point_queries(), names, scalars,
+        *this, registry::entries<PointQueryEntry>(), names, scalars,
         [](const PointQueryEntry& entry, Precision scalar, std::uint8_t task) {
           return scalar == entry.scalar &&
                  std::ranges::count(entry.tasks, static_cast<PointTask>(task)) > 0;

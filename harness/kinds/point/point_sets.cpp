@@ -83,7 +83,7 @@ class PointSets {
     input->points = make_points(*mesh_, place, count_, seed_);
     input->exact.resize(count_);
     input->size = base::length(mesh_->high - mesh_->low);
-    bound(*find_point_query("exact"))->query(task, input->points, input->exact);
+    bound(*registry::find<PointQueryEntry>("exact"))->query(task, input->points, input->exact);
     const double reach = point_reach(Vec3d::Zero(), mesh_->mesh);
     for (const Vec3d& point : input->points) {
       input->reaches.push_back(std::max(reach, point.norm()));
@@ -130,7 +130,7 @@ std::vector<PlannedSet> point_sets(files::TomlTable& table, const std::filesyste
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> places = choices(table, "points", point_place_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", point_task_names);
-  const auto entries = selected(table, point_queries(), "point query");
+  const auto entries = selected(table, registry::entries<PointQueryEntry>(), "point query");
   const bool asks_side = std::ranges::count(tasks, std::size_t{1}) > 0;
   std::vector<PlannedSet> cells;
   for (const auto& mesh :

@@ -106,7 +106,8 @@ class RayBatch final : public Batch {
   const RayHit& truth(std::size_t i, Precision scalar) {
     auto& known = truths_[scalar];
     if (known.empty()) {
-      known = rays_.answers(ray_solver(*find_ray_cast("exact"), RayTask::closest, scalar));
+      known = rays_.answers(
+          ray_solver(*registry::find<RayCastEntry>("exact"), RayTask::closest, scalar));
     }
     return known[i];
   }
@@ -139,12 +140,14 @@ class RayKind final : public Kind {
              .tasks = ray_tasks,
              .draw_number = 2}) {}
 
-  std::vector<const AlgorithmInfo*> algorithms() const override { return infos_of(ray_casts()); }
+  std::vector<const AlgorithmInfo*> algorithms() const override {
+    return infos_of(registry::entries<RayCastEntry>());
+  }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
     return contestants_of(
-        *this, ray_casts(), names, scalars,
+        *this, registry::entries<RayCastEntry>(), names, scalars,
         [](const RayCastEntry& entry, Precision scalar, std::uint8_t task) {
           return offers(entry, static_cast<RayTask>(task)) && offers(entry, scalar);
         },

@@ -133,7 +133,7 @@ class RaySets {
     input->rays = make_rays(*mesh_, aim, count_, seed_);
     input->size = 0.5 * base::length(mesh_->high - mesh_->low);
     input->exact.resize(input->rays.size());
-    bound(*find_ray_cast("exact"), Precision::float64)
+    bound(*registry::find<RayCastEntry>("exact"), Precision::float64)
         ->cast(RayTask::closest, input->rays, input->exact);
     last_ = input;
     last_aim_ = aim;
@@ -170,7 +170,7 @@ std::vector<PlannedSet> ray_sets(files::TomlTable& table, const std::filesystem:
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
   const std::vector<std::size_t> aims = choices(table, "rays", aim_names);
   const std::vector<std::size_t> tasks = choices(table, "tasks", ray_task_names);
-  const auto entries = selected(table, ray_casts(), "ray cast");
+  const auto entries = selected(table, registry::entries<RayCastEntry>(), "ray cast");
   std::vector<PlannedSet> cells;
   for (const auto& mesh :
        mesh_inputs(table, home, {"torus-2000", "trefoil-10000", "terrain-100000"})) {

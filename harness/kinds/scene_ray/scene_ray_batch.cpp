@@ -102,7 +102,7 @@ SceneBodies resized_bodies(SceneBodies bodies, double factor) {
 // Asks the oracle about each body alone.
 std::vector<RayTruth> body_by_body(const SceneBodies& bodies, std::span<const Ray> rays) {
   std::vector<RayTruth> truths(rays.size());
-  const auto exact = find_scene_ray_cast("exact")->make();
+  const auto exact = registry::find<SceneRayCastEntry>("exact")->make();
   std::vector<SceneRayHit> hits(rays.size());
   for (const SceneBody& body : bodies) {
     exact->bind({&body, 1});
@@ -298,13 +298,13 @@ class SceneRayKind final : public Kind {
               .draw_number = 6}) {}
 
   std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(scene_ray_casts());
+    return infos_of(registry::entries<SceneRayCastEntry>());
   }
 
   std::vector<Contestant> contestants(const std::vector<std::string>& names,
                                       std::span<const Precision> scalars) const override {
     return contestants_of(
-        *this, scene_ray_casts(), names, scalars,
+        *this, registry::entries<SceneRayCastEntry>(), names, scalars,
         [](const SceneRayCastEntry& entry, Precision scalar, std::uint8_t task) {
           return scalar == Precision::float64 &&
                  std::ranges::count(entry.tasks, static_cast<RayTask>(task)) > 0;

@@ -23,7 +23,7 @@ std::unique_ptr<ConcavePhase> NarrowChoice::make_concave(
     std::span<const ConcaveBody> bodies) const {
   std::unique_ptr<ConcavePhase> phase =
       concave->make({.scalar = settings.scalar, .mid_phase = mid->make, .narrow_phase = [] {
-                       return find_narrow_phase("certified")->make({});
+                       return registry::find<NarrowPhaseEntry>("certified")->make({});
                      }});
   phase->bind(bodies);
   return phase;
@@ -32,7 +32,7 @@ std::unique_ptr<ConcavePhase> NarrowChoice::make_concave(
 std::vector<NarrowChoice> concave_choices(std::span<const ConcaveEntry* const> entries,
                                           std::span<const MidPhaseEntry* const> mids,
                                           std::span<const Precision> scalars) {
-  const std::vector<const MidPhaseEntry*> usual = {find_mid_phase(usual_mid_phase)};
+  const std::vector<const MidPhaseEntry*> usual = {registry::find<MidPhaseEntry>(usual_mid_phase)};
   std::vector<NarrowChoice> choices;
   for (const ConcaveEntry* entry : entries) {
     for (const Precision scalar : scalars) {

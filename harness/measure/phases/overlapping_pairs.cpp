@@ -138,7 +138,8 @@ std::vector<IndexPair> overlapping_pairs(std::span<const Aabb> boxes,
   if (boxes.size() > most_to_test_all) return Tree(boxes).pairs();
   Executor executor(1);
   PairSink sink;
-  const std::unique_ptr<BroadPhase> naive = find_broad_phase("naive")->make(executor);
+  const std::unique_ptr<BroadPhase> naive =
+      registry::find<BroadPhaseEntry>("naive")->make(executor);
   naive->build(boxes);
   naive->find_pairs(sink);
   std::vector<IndexPair> pairs = sink.gather();

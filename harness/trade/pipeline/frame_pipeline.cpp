@@ -53,9 +53,10 @@ FramePipeline::FramePipeline(const SceneFrames& frames, const StandIns& stand_in
   if (configuration.concave != nullptr) {
     bodies_ = whole_bodies(frames, stand_ins, configuration);
     const measure::NarrowChoice choice =
-        measure::concave_choices(std::array{configuration.concave},
-                                 std::array{find_mid_phase(measure::usual_mid_phase)},
-                                 std::array{configuration.settings.scalar})
+        measure::concave_choices(
+            std::array{configuration.concave},
+            std::array{registry::find<MidPhaseEntry>(measure::usual_mid_phase)},
+            std::array{configuration.settings.scalar})
             .at(0);
     for (int worker = 0; worker < executor.width(); ++worker) {
       concave_.push_back(choice.make_concave(bodies_));

@@ -69,7 +69,7 @@ TrueMeshes::TrueMeshes(const SceneFrames& frames, Executor& executor)
       library_(frames, triangles_for_meshes()),
       solids_(library_.get(library_.complete(meshes_as_they_are()))) {
   for (int worker = 0; worker < executor.width(); ++worker) {
-    certified_.push_back(find_narrow_phase("certified")->make({}));
+    certified_.push_back(registry::find<NarrowPhaseEntry>("certified")->make({}));
     certified_.back()->bind(solids_->shapes);
   }
 }

@@ -90,7 +90,7 @@ std::string test_name(const testing::TestParamInfo<const BroadPhaseEntry*>& para
 
 std::vector<const BroadPhaseEntry*> entries(bool ours_only) {
   std::vector<const BroadPhaseEntry*> list;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (!ours_only || entry.info.origin == Origin::ours) list.push_back(&entry);
   }
   return list;

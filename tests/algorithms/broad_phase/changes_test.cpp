@@ -48,7 +48,8 @@ class Changes : public testing::TestWithParam<const BroadPhaseEntry*> {
 
 INSTANTIATE_TEST_SUITE_P(Registry, Changes, testing::ValuesIn([] {
                            std::vector<const BroadPhaseEntry*> list;
-                           for (const BroadPhaseEntry& entry : broad_phases()) {
+                           for (const BroadPhaseEntry& entry :
+                                registry::entries<BroadPhaseEntry>()) {
                              list.push_back(&entry);
                            }
                            return list;

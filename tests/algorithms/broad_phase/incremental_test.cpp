@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "algorithms/broad_phase/incremental_sweep_and_prune/pair_set.h"
+#include "algorithms/broad_phase/sweep_and_prune/pair_set.h"
 #include "algorithms/registry.h"
 #include "tests/algorithms/broad_phase/box_sets.h"
 #include "tests/algorithms/one_in.h"
@@ -177,8 +177,8 @@ TEST_P(LongHistories, AreFollowed) {
 
 std::vector<const BroadPhaseEntry*> keepers() {
   std::vector<const BroadPhaseEntry*> list;
-  for (const char* name : {"incremental-sweep-and-prune", "kd-tree"}) {
-    list.push_back(find_broad_phase(name));
+  for (const char* name : {"sweep-and-prune", "kd-tree"}) {
+    list.push_back(registry::find<BroadPhaseEntry>(name));
   }
   return list;
 }

@@ -169,7 +169,7 @@ struct Follower {
 
 std::vector<Follower> followers() {
   std::vector<Follower> list;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin != Origin::ours || entry.info.name == "naive") continue;
     for (const int width : {1, 3}) list.emplace_back(entry, width);
   }

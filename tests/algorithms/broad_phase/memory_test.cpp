@@ -115,7 +115,7 @@ Memory memory_of(const BroadPhaseEntry& entry, std::size_t bodies) {
 // notices a container of two bytes a body that is not stated either.
 TEST(Memory, IsStatedWhole) {
   constexpr std::int64_t few = 8'000, many = 32'000;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin != Origin::ours) continue;
     SCOPED_TRACE(entry.info.name);
     const Memory of_few = memory_of(entry, few), of_many = memory_of(entry, many);

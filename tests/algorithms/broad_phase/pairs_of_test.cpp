@@ -41,7 +41,8 @@ class PairsOf : public testing::TestWithParam<const BroadPhaseEntry*> {
 
 INSTANTIATE_TEST_SUITE_P(Registry, PairsOf, testing::ValuesIn([] {
                            std::vector<const BroadPhaseEntry*> list;
-                           for (const BroadPhaseEntry& entry : broad_phases()) {
+                           for (const BroadPhaseEntry& entry :
+                                registry::entries<BroadPhaseEntry>()) {
                              list.push_back(&entry);
                            }
                            return list;

@@ -15,7 +15,7 @@ using Structure = std::vector<StructureBox>;
 
 Structure structure_of(const std::string& name, std::span<const Aabb> boxes) {
   Executor executor(1);
-  const auto algorithm = find_broad_phase(name)->make(executor);
+  const auto algorithm = registry::find<BroadPhaseEntry>(name)->make(executor);
   algorithm->build(boxes);
   return algorithm->structure();
 }
@@ -90,7 +90,7 @@ TEST(StructureByHand, Intervals) {
                                      turned({{1, 3, 0}, {2, 3, 9}})};
     const Structure expected = {{turned({{1, 2, -1}, {2, 2, -1}}), 0},
                                 {turned({{5, 2, -1}, {6, 2, -1}}), 0}};
-    for (const char* name : {"sweep-and-prune", "sort-and-sweep", "incremental-sweep-and-prune"}) {
+    for (const char* name : {"sweep-one-axis", "sweep-three-axes", "sweep-and-prune"}) {
       Structure structure = structure_of(name, boxes);
       std::ranges::sort(structure, {}, [](const StructureBox& own) { return own.box.min; });
       EXPECT_EQ(structure, expected) << name << ' ' << axis;
@@ -102,7 +102,7 @@ TEST(StructureByHand, Intervals) {
 TEST(StructureByHand, IsAsFineAsTheBodiesAreMany) {
   Random random(6);
   const std::vector<Aabb> bodies = uniform_boxes(random, 5'000, 0.02f);
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin != Origin::ours || entry.info.name == "naive") continue;
     SCOPED_TRACE(entry.info.name);
     Structure structure = structure_of(entry.info.name, bodies);

@@ -23,9 +23,9 @@ const std::map<std::string, Kind> kinds = {
     {"naive", Kind::nothing},
     {"uniform-grid", Kind::cells},
     {"hierarchical-grid", Kind::cells},
+    {"sweep-one-axis", Kind::intervals},
+    {"sweep-three-axes", Kind::intervals},
     {"sweep-and-prune", Kind::intervals},
-    {"sort-and-sweep", Kind::intervals},
-    {"incremental-sweep-and-prune", Kind::intervals},
     {"loose-octree", Kind::tree},
     {"kd-tree", Kind::tree},
     {"linear-bvh", Kind::tree},
@@ -37,7 +37,7 @@ const std::map<std::string, Kind> kinds = {
 
 std::vector<const BroadPhaseEntry*> all_of_ours() {
   std::vector<const BroadPhaseEntry*> list;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin == Origin::ours) list.push_back(&entry);
   }
   return list;
@@ -289,7 +289,7 @@ TEST(Structure, FatBoxesAreShown) {
   for (const char* name : {"verlet-list", "dynamic-bvh"}) {
     SCOPED_TRACE(name);
     Executor executor(1);
-    const auto algorithm = find_broad_phase(name)->make(executor);
+    const auto algorithm = registry::find<BroadPhaseEntry>(name)->make(executor);
     ChangingBodies bodies(500, 0.1f);
     algorithm->build(bodies.boxes());
     for (int frame = 0; frame < 6; ++frame) {

@@ -20,7 +20,7 @@ struct Counted {
 
 Counted count(const std::string& name, std::span<const Aabb> boxes, int width = 1) {
   Executor executor(width);
-  const auto algorithm = find_broad_phase(name)->make(executor);
+  const auto algorithm = registry::find<BroadPhaseEntry>(name)->make(executor);
   PairSink sink;
   algorithm->build(boxes);
   EXPECT_EQ(algorithm->find_pairs(sink), Status::ok);
@@ -33,7 +33,7 @@ auto numbers(const BroadPhaseWork& work) {
 
 std::vector<const BroadPhaseEntry*> ours() {
   std::vector<const BroadPhaseEntry*> list;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin == Origin::ours) list.push_back(&entry);
   }
   return list;
@@ -67,7 +67,7 @@ TEST_F(Work, NaiveTestsEveryPairOnce) {
 
 TEST_F(Work, ASweepComparesEachBoxWithTheOneThatEndsIt) {
   // Apart on x: no candidate, and each box but the last meets its neighbour, which ends its sweep.
-  for (const char* name : {"sweep-and-prune", "sort-and-sweep", "incremental-sweep-and-prune"}) {
+  for (const char* name : {"sweep-one-axis", "sweep-three-axes", "sweep-and-prune"}) {
     SCOPED_TRACE(name);
     for (const std::size_t n : {1u, 2u, 15u, 16u, 17u, 40u}) {
       const Counted counted = count(name, row_of_cubes(n));
@@ -86,23 +86,23 @@ TEST_F(Work, SweepsByHand) {
                                    {{4, 0, 0}, {14, 1, 1}},
                                    {{50, 0, 0}, {60, 1, 1}},
                                    {{60, 0, 0}, {70, 1, 1}}};
-  const Counted sweep = count("sweep-and-prune", boxes);
+  const Counted sweep = count("sweep-one-axis", boxes);
   EXPECT_EQ(sweep.pairs, 2u);
   EXPECT_EQ(sweep.work.candidates, 4);     // 01 02 12 34
   EXPECT_EQ(sweep.work.box_tests, 4 + 3);  // and 03 13 23
   // Here the list of y is the longer one: 02 03 04 23 24 34. So it sweeps x too, by places.
-  const Counted sort = count("sort-and-sweep", boxes);
+  const Counted sort = count("sweep-three-axes", boxes);
   EXPECT_EQ(sort.pairs, 2u);
   EXPECT_EQ(sort.work.candidates, 4);
   EXPECT_EQ(sort.work.box_tests, 4 + 3);
-  const Counted kept = count("incremental-sweep-and-prune", boxes);
+  const Counted kept = count("sweep-and-prune", boxes);
   EXPECT_EQ(kept.work.candidates, 4);
   EXPECT_EQ(kept.work.box_tests, 4 + 3);
 }
 
 TEST_F(Work, KeptEndPointsAreCountedAsTheyStand) {
   Executor executor(1);
-  const auto algorithm = find_broad_phase("incremental-sweep-and-prune")->make(executor);
+  const auto algorithm = registry::find<BroadPhaseEntry>("sweep-and-prune")->make(executor);
   PairSink sink;
   std::vector<Aabb> boxes = row_of_cubes(20);
   algorithm->build(boxes);
@@ -151,7 +151,7 @@ TEST_F(Work, AStackInOnePlaceHasNothingButCandidates) {
     EXPECT_GE(counted.work.box_tests, 4950);
     EXPECT_LE(counted.work.box_tests, 4950 + 4950 / 4);
   }
-  for (const char* name : {"naive", "sweep-and-prune", "sort-and-sweep", "uniform-grid"}) {
+  for (const char* name : {"naive", "sweep-one-axis", "sweep-three-axes", "uniform-grid"}) {
     EXPECT_EQ(count(name, boxes).work.box_tests, 4950) << name;
   }
 }

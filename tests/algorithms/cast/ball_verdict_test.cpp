@@ -32,7 +32,7 @@ Asked ask(const MovingPairCase& c, double tolerance) {
 
 TEST(BallVerdict, IsThatOfTheExactCast) {
   Random random(52);
-  const CastEntry& exact = *find_cast("exact");
+  const CastEntry& exact = *registry::find<CastEntry>("exact");
   int misses = 0, overlaps = 0, open = 0;
   for_each_pair_of_kinds([&](ShapeKind a, ShapeKind b) {
     for (int i = 0; i < drawn(24, 6); ++i) {

@@ -160,7 +160,7 @@ TEST(CastCertificates, ContactsOfAnInstantAreExact) {
       SCOPED_TRACE(std::to_string(i) + (touches ? " touches" : " passes"));
       const Proven proven(c);
       EXPECT_EQ(proven.fault(), "");
-      const CastOutcome outcome = solve(*find_cast("exact"), c);
+      const CastOutcome outcome = solve(*registry::find<CastEntry>("exact"), c);
       EXPECT_EQ(outcome.status, Status::ok);
       ASSERT_EQ(outcome.answer, touches ? CastAnswer::hit : CastAnswer::miss);
       EXPECT_EQ(proven.certificate.answer, outcome.answer);
@@ -192,7 +192,7 @@ TEST(CastCertificates, PolytopesAnyhow) {
     const Proven proven(c);
     ASSERT_NE(proven.certificate.answer, CastAnswer::unknown);
     EXPECT_EQ(proven.fault(), "");
-    EXPECT_EQ(solve(*find_cast("exact"), c).answer, proven.certificate.answer);
+    EXPECT_EQ(solve(*registry::find<CastEntry>("exact"), c).answer, proven.certificate.answer);
     ++(proven.certificate.answer == CastAnswer::hit ? hits : misses);
     if (proven.certificate.answer == CastAnswer::hit) {
       starts += proven.certificate.upper.numerator.is_zero() ? 1 : 0;

@@ -55,7 +55,8 @@ TEST(CastLanes, AgreeWithOnePairAtATime) {
         {"gjk-ray-cast-lanes", "gjk-ray-cast", box, box},
         {"mpr-ray-cast-lanes", "mpr-ray-cast", hull, hull},
         {"mpr-ray-cast-lanes", "mpr-ray-cast", box, hull}}) {
-    const CastEntry &lanes = *find_cast(lanes_name), &plain = *find_cast(plain_name);
+    const CastEntry &lanes = *registry::find<CastEntry>(lanes_name),
+                    &plain = *registry::find<CastEntry>(plain_name);
     MovingBatch batch;
     std::vector<MovingPairCase> cases;
     for (int i = 0; i < drawn(301, 61); ++i) {
@@ -95,7 +96,7 @@ TEST(CastLanes, AgreeWithOnePairAtATime) {
       EXPECT_TRUE(is_same(together[i].lower, alone.lower)) << i;
       EXPECT_TRUE(is_same(together[i].upper, alone.upper)) << i;
       const CastOutcome other = solve(plain, cases[i]);
-      const CastOutcome exact = solve(*find_cast("exact"), cases[i]);
+      const CastOutcome exact = solve(*registry::find<CastEntry>("exact"), cases[i]);
       if (exact.answer == CastAnswer::hit) {
         ++hits;
         ASSERT_EQ(alone.answer, CastAnswer::hit) << i << ' ' << cases[i].what;

@@ -70,7 +70,7 @@ TEST_P(CastSettingsTest, BodiesThatPartByFarAreNoHit) {
 }
 
 TEST(ExactCastAtItsCap, IsUnknown) {
-  const CastEntry& exact = *find_cast("exact");
+  const CastEntry& exact = *registry::find<CastEntry>("exact");
   MovingPairCase c;
   c.a = make_box(1, 1, 1);
   c.b = make_box(0.5, 0.5, 0.5);

@@ -115,7 +115,7 @@ TEST(ExactCastAtTheStart, IsAHitOfBodiesThatTouchAndTurn) {
     if (i % 5 == 0) c.pose_b.translation += 0x1p-40 * c.normal;
     const oracle::Solid a(c.a), b(c.b);
     const bool touch = oracle.verdict({a, c.pose_a}, {b, c.pose_b}) == Answer::touching;
-    const CastOutcome outcome = solve(*find_cast("exact"), c);
+    const CastOutcome outcome = solve(*registry::find<CastEntry>("exact"), c);
     ++(touch ? touches : others);
     if (!touch) {
       EXPECT_FALSE(outcome.upper <= 0) << c.what << " " << i;

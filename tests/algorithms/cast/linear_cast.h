@@ -20,7 +20,7 @@ inline constexpr std::array features = {ContactFeature::vertices, ContactFeature
 // The casts that must be right.
 inline std::vector<const CastEntry*> proven_casts() {
   std::vector<const CastEntry*> all;
-  for (const CastEntry& entry : casts()) {
+  for (const CastEntry& entry : registry::entries<CastEntry>()) {
     if (entry.info.origin != Origin::peer) all.push_back(&entry);
   }
   return all;

@@ -55,7 +55,7 @@ TEST_P(LinearCastVariants, TouchingAtTheStart) {
 
 // Pairs that were not made to meet: the brackets of an algorithm and of the oracle share the truth.
 TEST_P(LinearCastVariants, AgreesWithTheOracle) {
-  const CastEntry& exact = *find_cast("exact");
+  const CastEntry& exact = *registry::find<CastEntry>("exact");
   if (&entry() == &exact) return;
   constexpr std::array kinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box,
                                 ShapeKind::hull};

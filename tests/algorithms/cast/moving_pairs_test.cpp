@@ -55,7 +55,7 @@ TEST(MovingPairs, AreThoseOfAllPairsForEveryBroadPhaseAndCut) {
     const auto bodies = cubes(static_cast<std::size_t>(drawn(300, 120)), motion, 1);
     const std::vector<IndexPair> expected = all_meeting(bodies);
     ASSERT_GT(expected.size(), bodies.size() / 4);
-    for (const BroadPhaseEntry& entry : broad_phases()) {
+    for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
       if (!is_built(entry.info)) continue;
       const bool is_tried_most = entry.info.name == "linear-bvh";
       for (const int parts : is_tried_most ? std::vector{0, 1, 2, 16, 64} : std::vector{1, 8}) {
@@ -79,7 +79,7 @@ TEST(MovingPairs, HaveAnOrderThatDoesNotDependOnTheThreads) {
   std::vector<IndexPair> alone, two;
   Executor one(1), crew(2);
   const auto find = [&](Executor& executor, std::vector<IndexPair>& pairs) {
-    MovingPairs moving(*find_broad_phase("linear-bvh"), executor);
+    MovingPairs moving(*registry::find<BroadPhaseEntry>("linear-bvh"), executor);
     EXPECT_EQ(moving.find_pairs(bodies, pairs), Status::ok);
     EXPECT_GT(moving.parts(), 1);
     EXPECT_GE(moving.candidates(), pairs.size());
@@ -91,7 +91,7 @@ TEST(MovingPairs, HaveAnOrderThatDoesNotDependOnTheThreads) {
 
 TEST(MovingPairs, AreTheSameWhereTheSweptBoxesAreKnown) {
   Executor executor(2);
-  MovingPairs moving(*find_broad_phase("linear-bvh"), executor);
+  MovingPairs moving(*registry::find<BroadPhaseEntry>("linear-bvh"), executor);
   for (const double motion : {0.5, 20.0}) {
     const auto bodies = cubes(900, motion, 5);
     std::vector<Aabb> swept;
@@ -109,7 +109,7 @@ TEST(MovingPairs, AreTheSameWhereTheSweptBoxesAreKnown) {
 
 TEST(MovingPairs, AreCutWhereBoxesSweepMuch) {
   Executor executor(1);
-  const BroadPhaseEntry& broad = *find_broad_phase("linear-bvh");
+  const BroadPhaseEntry& broad = *registry::find<BroadPhaseEntry>("linear-bvh");
   MovingPairs chosen(broad, executor), whole(broad, executor, 1);
   std::vector<IndexPair> pairs, others;
   const std::size_t count = 3000;
@@ -125,7 +125,7 @@ TEST(MovingPairs, AreCutWhereBoxesSweepMuch) {
 
 TEST(MovingPairs, OfNothingAndOfEmptySlots) {
   Executor executor(1);
-  MovingPairs moving(*find_broad_phase("sweep-and-prune"), executor);
+  MovingPairs moving(*registry::find<BroadPhaseEntry>("sweep-one-axis"), executor);
   std::vector<IndexPair> pairs = {{0, 1}};
   EXPECT_EQ(moving.find_pairs({}, pairs), Status::ok);
   EXPECT_TRUE(pairs.empty());
@@ -139,7 +139,7 @@ TEST(MovingPairs, OfNothingAndOfEmptySlots) {
 // Far and fast boxes whose sweeps leave the range of floats.
 TEST(MovingPairs, OfHugeMotions) {
   Executor executor(1);
-  MovingPairs moving(*find_broad_phase("linear-bvh"), executor);
+  MovingPairs moving(*registry::find<BroadPhaseEntry>("linear-bvh"), executor);
   constexpr float far = 3e38F;
   std::vector<MovingBox> bodies(3);
   bodies[0] = {{{-far, 0, 0}, {-far, 1, 1}}, {far, 0, 0}, 0};

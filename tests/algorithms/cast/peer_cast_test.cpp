@@ -15,7 +15,7 @@ using namespace reference;
 
 std::vector<const CastEntry*> peer_casts() {
   std::vector<const CastEntry*> all;
-  for (const CastEntry& entry : casts()) {
+  for (const CastEntry& entry : registry::entries<CastEntry>()) {
     if (entry.info.origin == Origin::peer && is_built(entry.info)) all.push_back(&entry);
   }
   return all;

@@ -15,7 +15,7 @@ using namespace reference;
 
 std::vector<const CastEntry*> turning_casts() {
   std::vector<const CastEntry*> all;
-  for (const CastEntry& entry : casts()) {
+  for (const CastEntry& entry : registry::entries<CastEntry>()) {
     if (entry.info.origin != Origin::peer && entry.rotation) all.push_back(&entry);
   }
   return all;
@@ -25,7 +25,9 @@ std::vector<const CastEntry*> turning_casts() {
 class Watch {
  public:
   explicit Watch(const MovingPairCase& c)
-      : case_(c), swap_(c.b.kind < c.a.kind), gjk_(find_narrow_phase("gjk")->make({})) {
+      : case_(c),
+        swap_(c.b.kind < c.a.kind),
+        gjk_(registry::find<NarrowPhaseEntry>("gjk")->make({})) {
     shapes_ = swap_ ? std::array<Shape, 2>{c.b, c.a} : std::array<Shape, 2>{c.a, c.b};
     gjk_->bind(shapes_);
   }
@@ -192,7 +194,7 @@ TEST_P(RigidCast, BoxesWhoseRotationsAreNotQuite) {
 TEST_P(RigidCast, AgreesWithTheOracle) {
   constexpr std::array kinds = {ShapeKind::capsule, ShapeKind::box, ShapeKind::cylinder,
                                 ShapeKind::hull};
-  const CastEntry& exact = *find_cast("exact");
+  const CastEntry& exact = *registry::find<CastEntry>("exact");
   if (&entry() == &exact) return;
   Random random(26);
   for (int i = 0; i < drawn(120, 48); ++i) {
@@ -227,7 +229,7 @@ TEST_P(RigidCast, AgreesWithTheOracle) {
 // Without rotation they answer as the linear ones.
 TEST_P(RigidCast, AgreesWithTheLinearCast) {
   Random random(25);
-  const CastEntry& linear = *find_cast("gjk-ray-cast");
+  const CastEntry& linear = *registry::find<CastEntry>("gjk-ray-cast");
   for (int i = 0; i < drawn(200, 20); ++i) {
     const MovingPairCase c =
         i % 2 == 0

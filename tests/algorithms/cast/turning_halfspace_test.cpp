@@ -24,7 +24,7 @@ const std::vector<Shape>& bodies() {
 
 CastOutcome solve(const char* name, const Shape& body, const Pose& pose, const Motion& motion,
                   const Motion& of_ground) {
-  const CastEntry* entry = find_cast(name);
+  const CastEntry* entry = registry::find<CastEntry>(name);
   const auto cast = entry->make({.tolerance = 1e-7});
   const std::array<Shape, 2> shapes = {body, reference::make_halfspace({0, 0.6, 0.8}, 0.1)};
   cast->bind(shapes);

@@ -21,7 +21,7 @@ using families::CcdFamily;
 
 std::vector<const CcdEntry*> our_ccds() {
   std::vector<const CcdEntry*> ours;
-  for (const CcdEntry& entry : ccds()) {
+  for (const CcdEntry& entry : registry::entries<CcdEntry>()) {
     if (entry.info.origin == Origin::ours) ours.push_back(&entry);
   }
   return ours;

@@ -165,7 +165,7 @@ TEST(ExactSeparation, ScaleAndDirectionOfTimeChangeNothing) {
 }
 
 TEST(ExactSeparation, AnswersTheContract) {
-  const auto algorithm = find_ccd("exact")->make({.separation = 0.5});
+  const auto algorithm = registry::find<CcdEntry>("exact")->make({.separation = 0.5});
   const CcdQuery query = falling();
   CcdOutcome outcome;
   algorithm->solve(FeaturePair::vertex_face, {&query, 1}, {&outcome, 1});

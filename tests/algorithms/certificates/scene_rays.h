@@ -26,7 +26,7 @@ inline std::vector<oracle::PlacedBody> placed(const std::vector<SceneBody>& bodi
 
 inline SceneRayHit solved(const std::vector<SceneBody>& bodies,
                           const oracle::SceneRayCertificate& of) {
-  const auto cast = find_scene_ray_cast("exact")->make();
+  const auto cast = registry::find<SceneRayCastEntry>("exact")->make();
   cast->bind(bodies);
   const Ray ray{of.origin, of.direction, of.t_max};
   SceneRayHit hit;

@@ -11,7 +11,7 @@ namespace touchstone::reference {
 inline Answered agreed(const std::array<ConcaveBody, 2>& bodies, const Pose& a, const Pose& b) {
   const Answered truth = ask("exact", ConcaveTask::contacts, bodies, a, b);
   for (const std::string& name : concave_names()) {
-    if (find_concave_phase(name)->approximate) continue;
+    if (registry::find<ConcaveEntry>(name)->approximate) continue;
     SCOPED_TRACE(name);
     const Answered contacts = ask(name, ConcaveTask::contacts, bodies, a, b);
     EXPECT_EQ(contacts.outcome.status, truth.outcome.status);

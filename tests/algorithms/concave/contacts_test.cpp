@@ -24,7 +24,7 @@ struct Measured {
 
 Measured measured(const char* name, const std::array<ConcaveBody, 2>& bodies, const Pose& a,
                   const Pose& b) {
-  const auto phase = find_concave_phase(name)->make(reference::concave_settings());
+  const auto phase = registry::find<ConcaveEntry>(name)->make(reference::concave_settings());
   phase->bind(bodies);
   Measured found;
   Outcome outcome;
@@ -133,7 +133,7 @@ TEST(ConcaveContacts, OfABallOnAPlane) {
 }
 
 TEST(ConcaveContacts, ThoseWithoutSaySo) {
-  for (const ConcaveEntry& entry : concave_phases()) {
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     if (!is_built(entry.info)) continue;
     const auto phase = entry.make(reference::concave_settings());
     const std::array<ConcaveBody, 2> bodies = {body_of(reference::box_mesh(1, 1, 1)),

@@ -138,7 +138,7 @@ TEST(ConvexLanes, ShrunkRoundBodiesWithEachMidPhase) {
   const ConcaveBody corner = reference::mesh_of({{Vec3d(0, 0, 0), Vec3d(1, 0, 0), Vec3d(0, 1, 0)}});
   ConcaveBody box = body_of(reference::make_box(0.1, 0.1, 0.1));
   int hits = 0, all = 0;
-  for (const MidPhaseEntry& mid : mid_phases()) {
+  for (const MidPhaseEntry& mid : registry::entries<MidPhaseEntry>()) {
     if (mid.make == nullptr) continue;
     SCOPED_TRACE(mid.info.name);
     for (int i = 0; i < drawn(60, 20); ++i) {

@@ -184,10 +184,12 @@ TEST(ConcaveDistance, WithinATolerance) {
   const std::array<ConcaveBody, 2> bodies = {body_of(reference::make_ellipsoid(1, 2, 3)),
                                              body_of(reference::make_cylinder(0.5, 1))};
   ConcaveSettings settings = reference::concave_settings();
-  settings.narrow_phase = [] { return find_narrow_phase("certified")->make({.tolerance = 0.01}); };
+  settings.narrow_phase = [] {
+    return registry::find<NarrowPhaseEntry>("certified")->make({.tolerance = 0.01});
+  };
   const auto measured = [&](std::optional<double> tolerance) {
     settings.tolerance = tolerance;
-    const auto phase = find_concave_phase("fused")->make(settings);
+    const auto phase = registry::find<ConcaveEntry>("fused")->make(settings);
     phase->bind(bodies);
     Outcome outcome;
     std::vector<IndexPair> pairs;

@@ -16,7 +16,7 @@ using reference::moved_by;
 class FclMeshesTest : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    const ConcaveEntry* entry = find_concave_phase(GetParam());
+    const ConcaveEntry* entry = registry::find<ConcaveEntry>(GetParam());
     ASSERT_NE(entry, nullptr);
     EXPECT_EQ(entry->info.origin, Origin::peer);
     if (!is_built(entry->info)) GTEST_SKIP() << entry->info.reason;

@@ -50,7 +50,7 @@ TEST(MeshPairs, EveryMidPhaseGivesTheSameLists) {
     const Pose a = {random.rotation(), random.vector(0.6)};
     const Pose b = {random.rotation(), random.vector(0.6)};
     const Answered fused = ask("fused", ConcaveTask::contacts, bodies, a, b);
-    for (const MidPhaseEntry& mid : mid_phases()) {
+    for (const MidPhaseEntry& mid : registry::entries<MidPhaseEntry>()) {
       const Answered found = ask("part-pairs", ConcaveTask::contacts, bodies, a, b, mid.info.name);
       EXPECT_EQ(found.pairs, fused.pairs) << mid.info.name;
     }

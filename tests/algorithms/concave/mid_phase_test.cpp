@@ -65,7 +65,9 @@ std::multiset<IndexPair> found_pairs(MidPhase& mid, const Pose& a, const Pose& b
 
 class EveryMidPhase : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<MidPhase> make() const { return find_mid_phase(GetParam())->make(); }
+  std::unique_ptr<MidPhase> make() const {
+    return registry::find<MidPhaseEntry>(GetParam())->make();
+  }
 };
 
 Pose any_pose(reference::Random& random, int kind) {
@@ -177,7 +179,7 @@ TEST_P(EveryMidPhase, TakesEmptyAndBoundlessBoxes) {
 
 INSTANTIATE_TEST_SUITE_P(MidPhases, EveryMidPhase, testing::ValuesIn([] {
                            std::vector<std::string> names;
-                           for (const MidPhaseEntry& entry : mid_phases()) {
+                           for (const MidPhaseEntry& entry : registry::entries<MidPhaseEntry>()) {
                              names.push_back(entry.info.name);
                            }
                            return names;

@@ -17,7 +17,7 @@ using reference::moved_by;
 class PeerMeshesTest : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    entry_ = find_concave_phase(GetParam());
+    entry_ = registry::find<ConcaveEntry>(GetParam());
     ASSERT_NE(entry_, nullptr);
     EXPECT_EQ(entry_->info.origin, Origin::peer);
     if (!is_built(entry_->info)) GTEST_SKIP() << entry_->info.reason;

@@ -15,16 +15,16 @@ namespace touchstone::reference {
 // All that are built and ours, or the oracle.
 inline std::vector<std::string> concave_names() {
   std::vector<std::string> names;
-  for (const ConcaveEntry& entry : concave_phases()) {
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     if (is_built(entry.info) && entry.info.origin != Origin::peer) names.push_back(entry.info.name);
   }
   return names;
 }
 
 inline ConcaveSettings concave_settings(const std::string& mid = "wide-bvh") {
-  return {.scalar = Precision::float64, .mid_phase = find_mid_phase(mid)->make, .narrow_phase = [] {
-            return find_narrow_phase("certified")->make({});
-          }};
+  return {.scalar = Precision::float64,
+          .mid_phase = registry::find<MidPhaseEntry>(mid)->make,
+          .narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); }};
 }
 
 struct Answered {
@@ -37,7 +37,7 @@ struct Answered {
 inline Answered ask(const std::string& name, ConcaveTask task,
                     const std::array<ConcaveBody, 2>& bodies, const Pose& a, const Pose& b,
                     const std::string& mid = "wide-bvh") {
-  const auto phase = find_concave_phase(name)->make(concave_settings(mid));
+  const auto phase = registry::find<ConcaveEntry>(name)->make(concave_settings(mid));
   phase->bind(bodies);
   Answered answered;
   phase->solve(task, {0, a}, {1, b}, answered.outcome, answered.pairs);

@@ -149,7 +149,7 @@ TEST(SolidParts, AreNotGivenToLibrariesThatTakeSurfaces) {
   EXPECT_FALSE(surface.has_inside());
   EXPECT_TRUE(solid.has_inside());
   int asked = 0;
-  for (const ConcaveEntry& entry : concave_phases()) {
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     if (entry.info.origin != Origin::peer || entry.supports == nullptr) continue;
     ++asked;
     EXPECT_FALSE(entry.supports(solid, mesh)) << entry.info.name;

@@ -113,7 +113,7 @@ TEST(TrianglePairs, EveryPhaseIsRight) {
   for (const std::string& name : reference::concave_names()) {
     SCOPED_TRACE(name);
     int wrong = 0, asked = 0;
-    const bool approximate = find_concave_phase(name)->approximate;
+    const bool approximate = registry::find<ConcaveEntry>(name)->approximate;
     for_each_pair(7, [&](const TrianglePair& pair, bool truth) {
       const std::array<ConcaveBody, 2> bodies = {reference::mesh_of({pair.a}),
                                                  reference::mesh_of({pair.b})};

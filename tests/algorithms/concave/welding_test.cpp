@@ -22,7 +22,7 @@ std::vector<PartContact> contacts_of(const char* name, bool welds,
                                      const Pose& b) {
   ConcaveSettings settings = reference::concave_settings();
   settings.welds = welds;
-  const auto phase = find_concave_phase(name)->make(settings);
+  const auto phase = registry::find<ConcaveEntry>(name)->make(settings);
   phase->bind(bodies);
   Outcome outcome;
   std::vector<IndexPair> pairs;

@@ -39,7 +39,7 @@ void grade(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_
   ++(exact.answer == Answer::touching    ? count.touching
      : exact.answer == Answer::separated ? count.separated
                                          : count.overlapping);
-  const NarrowPhaseEntry& certified = *find_narrow_phase("certified");
+  const NarrowPhaseEntry& certified = *registry::find<NarrowPhaseEntry>("certified");
   for (const Task task : tasks) {
     // No tolerance is taken to be below 4e-15.
     const bool tight = count.asked++ % 3 == 0;
@@ -185,7 +185,7 @@ TEST(CertifiedContact, BodiesThatStandOnAPlane) {
 // An answer depends on no memory that nobody has set.
 TEST(CertifiedContact, AnswersDoNotDependOnWhatIsOnTheStack) {
   Random random(8);
-  const NarrowPhaseEntry& certified = *find_narrow_phase("certified");
+  const NarrowPhaseEntry& certified = *registry::find<NarrowPhaseEntry>("certified");
   const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
   for (int i = 0; i < 600; ++i) {
     const std::vector<Shape> shapes = {half_of_grid(random, -1, 1 + random() % 5),

@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 
 const NarrowPhaseEntry& certified() {
-  const auto entries = narrow_phases();
+  const auto entries = registry::entries<NarrowPhaseEntry>();
   return *std::find_if(entries.begin(), entries.end(),
                        [](const auto& entry) { return entry.info.name == "certified"; });
 }

@@ -42,7 +42,7 @@ double size_of(const Shape& shape) { return std::max(shape.radius, shape.radii.m
 // Every task of both scalars, each against the enclosure; what is `ok` has to be right.
 EllipsoidTally check(Precision scalar, int count, unsigned seed,
                      const std::function<Pair(Random&)>& draw) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("ellipsoid");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("ellipsoid");
   const double accuracy = scalar == Precision::float64 ? 1e-12 : 1e-5;
   oracle::Oracle oracle;
   Random random(seed);

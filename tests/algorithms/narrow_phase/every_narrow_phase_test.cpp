@@ -33,7 +33,7 @@ struct Subject {
 
 std::vector<Subject> subjects() {
   std::vector<Subject> all;
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (!is_built(entry.info)) continue;
     for (const Precision scalar : entry.scalars) all.push_back({&entry, scalar});
   }

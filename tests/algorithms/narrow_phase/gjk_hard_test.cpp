@@ -26,7 +26,7 @@ using namespace reference;
 using testing::AnyOf;
 
 std::unique_ptr<NarrowPhase> make_gjk(const NarrowPhaseSettings& settings = {}) {
-  return find_narrow_phase("gjk")->make(settings);
+  return registry::find<NarrowPhaseEntry>("gjk")->make(settings);
 }
 
 Body at(Shape shape, const Vec3d& place, const Mat3d& rotation = Mat3d::Identity()) {

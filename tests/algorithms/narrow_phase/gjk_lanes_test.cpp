@@ -34,7 +34,7 @@ constexpr std::array<Kinds, 12> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sp
                                                {ShapeKind::capsule, ShapeKind::hull, 60},
                                                {ShapeKind::hull, ShapeKind::hull, 60}}};
 
-const NarrowPhaseEntry& entry() { return *find_narrow_phase("gjk-lanes"); }
+const NarrowPhaseEntry& entry() { return *registry::find<NarrowPhaseEntry>("gjk-lanes"); }
 
 std::string name(Kinds kinds, Precision scalar, Task task, Sort sort) {
   return std::string(to_string(kinds.a)) + "-" + std::string(to_string(kinds.b)) + " of " +
@@ -119,7 +119,7 @@ void expect_on(oracle::Oracle& oracle, const Pairs& pairs, std::uint32_t body, c
 }
 
 TEST(GjkLanes, HoldNoSilentErrorAgainstTheOracle) {
-  const NarrowPhaseEntry& gjk = *find_narrow_phase("gjk");
+  const NarrowPhaseEntry& gjk = *registry::find<NarrowPhaseEntry>("gjk");
   oracle::Oracle oracle;
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {

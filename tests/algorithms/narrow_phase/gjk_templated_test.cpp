@@ -17,8 +17,8 @@ namespace {
 
 using namespace test;
 
-const NarrowPhaseEntry& templated() { return *find_narrow_phase("gjk-templated"); }
-const NarrowPhaseEntry& switching() { return *find_narrow_phase("gjk"); }
+const NarrowPhaseEntry& templated() { return *registry::find<NarrowPhaseEntry>("gjk-templated"); }
+const NarrowPhaseEntry& switching() { return *registry::find<NarrowPhaseEntry>("gjk"); }
 
 // near: apart or together by 1e-15 to 0.1 of their size. flat: sizes of zero, needles, sheets.
 // aligned: with axes in common, some with the same centre. stretched: no rotation but any matrix.

@@ -21,7 +21,7 @@ using namespace reference;
 std::unique_ptr<NarrowPhase> make_gjk(Precision scalar = Precision::float64) {
   NarrowPhaseSettings settings;
   settings.scalar = scalar;
-  return find_narrow_phase("gjk")->make(settings);
+  return registry::find<NarrowPhaseEntry>("gjk")->make(settings);
 }
 
 Pose at(const Vec3d& place, const Mat3d& rotation = Mat3d::Identity()) {

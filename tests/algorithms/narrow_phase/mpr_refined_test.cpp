@@ -23,7 +23,8 @@ struct Body {
 
 Outcome ask_named(const char* name, Precision scalar, const Body& a, const Body& b,
                   Task task = Task::penetration) {
-  return ask(*find_narrow_phase(name), settings_of(scalar), task, a.shape, a.pose, b.shape, b.pose);
+  return ask(*registry::find<NarrowPhaseEntry>(name), settings_of(scalar), task, a.shape, a.pose,
+             b.shape, b.pose);
 }
 
 // The distance by which b must move along a direction until a plane across it separates the bodies.
@@ -212,7 +213,7 @@ TEST_P(MprRefined, HoldsItsBoundsForRoundBodies) {
 // Bodies that move a little from frame to frame, through each other and apart, and now and then
 // somewhere else.
 TEST_P(MprRefined, IsNeverWorseWarm) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("mpr-refined");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("mpr-refined");
   ASSERT_TRUE(entry.traits.starts_warm);
   Random random(15);
   int common = 0, apart = 0, better = 0;

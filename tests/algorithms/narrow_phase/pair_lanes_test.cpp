@@ -29,7 +29,7 @@ constexpr std::array<Kinds, 5> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sph
                                               {ShapeKind::box, ShapeKind::box}}};
 
 TEST(PairLanes, AnswerBatchesOfEveryLengthAlike) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("closed-form");
   for (const Kinds kinds : kind_pairs) {
     const Pairs pairs = hard_pairs(1, kinds, Sort::plain, 66);
     for (const Precision scalar : scalars) {
@@ -46,7 +46,7 @@ TEST(PairLanes, AnswerBatchesOfEveryLengthAlike) {
 }
 
 TEST(PairLanes, HaveTheSameBitsAtEveryLevel) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("closed-form");
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {
       const Pairs pairs = hard_pairs(2, kinds, sort, drawn(120, 30));
@@ -71,7 +71,7 @@ TEST(PairLanes, HaveTheSameBitsAtEveryLevel) {
 
 // The squares of such columns vanish: what is left of them bounds nothing.
 TEST(PairLanes, AreNotMisledByMatricesThatShrinkNearlyToNothing) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("closed-form");
   Shape box;
   box.kind = ShapeKind::box;
   box.half_extents = Vec3d::Constant(1e11);
@@ -115,7 +115,7 @@ std::set<std::size_t> boxes_left(Precision scalar, Task task, const Pairs& pairs
 }
 
 TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("closed-form");
   oracle::Oracle oracle;
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {

@@ -40,7 +40,7 @@ TEST(PairQuery, TheOutcomeIsTurnedBack) {
 TEST(PairQuery, AnswersInEitherOrder) {
   int separated = 0, overlapping = 0;
   for (const char* name : {"gjk", "closed-form", "certified"}) {
-    const NarrowPhaseEntry& entry = *find_narrow_phase(name);
+    const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>(name);
     for (const AnyPair& pair : any_pairs()) {
       if (!pair.is_bounded() || std::abs(pair.truth.middle()) < 1e-6) continue;
       const std::array<Shape, 2> shapes{pair.a, pair.b};
@@ -81,7 +81,7 @@ TEST(PairQuery, AnswersInEitherOrder) {
 
 // Bodies that come nearer frame by frame, each query from what the last one left.
 TEST(PairQuery, RemembersAPair) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("gjk");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("gjk");
   const std::array<Shape, 2> shapes{tetrahedron(), box(1, 1, 1)};
   for (const std::optional<double> margin : {std::optional<double>(), std::optional(0.5)}) {
     PairQuery cold(entry.make({.margin = margin}), shapes);

@@ -113,7 +113,7 @@ void expect_right(const Pairs& pairs, std::size_t i, const oracle::Measure& trut
 
 void hold_no_silent_error(const NarrowPhaseEntry& entry, const std::vector<Kinds>& kind_pairs,
                           std::uint64_t seed, int count) {
-  const NarrowPhaseEntry& gjk = *find_narrow_phase("gjk");
+  const NarrowPhaseEntry& gjk = *registry::find<NarrowPhaseEntry>("gjk");
   for (const Kinds kinds : kind_pairs) {
     for (const Sort sort : all_sorts) {
       const Pairs pairs = hard_pairs(seed, kinds, sort, static_cast<std::size_t>(count));
@@ -145,15 +145,17 @@ void hold_no_silent_error(const NarrowPhaseEntry& entry, const std::vector<Kinds
 }
 
 TEST(RoundBodies, InLanesHoldNoSilentError) {
-  hold_no_silent_error(*find_narrow_phase("gjk-lanes"), curved_pairs(true), 31, drawn(20, 20));
+  hold_no_silent_error(*registry::find<NarrowPhaseEntry>("gjk-lanes"), curved_pairs(true), 31,
+                       drawn(20, 20));
 }
 
 TEST(RoundBodies, BySmoothNormalsHoldNoSilentError) {
-  hold_no_silent_error(*find_narrow_phase("smooth"), curved_pairs(false), 32, drawn(24, 20));
+  hold_no_silent_error(*registry::find<NarrowPhaseEntry>("smooth"), curved_pairs(false), 32,
+                       drawn(24, 20));
 }
 
 TEST(RoundBodies, AreAnsweredInLanesAlikeInEveryBatchAndAtEveryLevel) {
-  const NarrowPhaseEntry& lanes = *find_narrow_phase("gjk-lanes");
+  const NarrowPhaseEntry& lanes = *registry::find<NarrowPhaseEntry>("gjk-lanes");
   for (const Kinds kinds : {Kinds{ShapeKind::cylinder, ShapeKind::cone},
                             Kinds{ShapeKind::ellipsoid, ShapeKind::hull}}) {
     const Pairs pairs = hard_pairs(33, kinds, Sort::plain, drawn(200, 40));
@@ -174,7 +176,7 @@ TEST(RoundBodies, AreAnsweredInLanesAlikeInEveryBatchAndAtEveryLevel) {
 
 // Random pairs are proven to a part in 1e12, mostly.
 TEST(RoundBodies, HaveExactDepthsAndDistances) {
-  const NarrowPhaseEntry& smooth = *find_narrow_phase("smooth");
+  const NarrowPhaseEntry& smooth = *registry::find<NarrowPhaseEntry>("smooth");
   for (const Kinds kinds : curved_pairs(false)) {
     Random random(34);
     Pairs pairs;
@@ -220,8 +222,8 @@ Shape upright(ShapeKind kind, double radius, double half_length) {
 // Coaxial, flush and tip on cap, with depths and gaps that are known, at all scales, touching to
 // 1e-12 of the size, and bodies without radius or length.
 TEST(RoundBodies, StandOnEachOther) {
-  const NarrowPhaseEntry& smooth = *find_narrow_phase("smooth");
-  const NarrowPhaseEntry& lanes = *find_narrow_phase("gjk-lanes");
+  const NarrowPhaseEntry& smooth = *registry::find<NarrowPhaseEntry>("smooth");
+  const NarrowPhaseEntry& lanes = *registry::find<NarrowPhaseEntry>("gjk-lanes");
   Random random(35);
   int apart = 0, deep = 0;
   for (const double scale : {1e-6, 1.0, 1e6}) {

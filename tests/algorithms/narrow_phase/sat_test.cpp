@@ -17,7 +17,8 @@ using namespace test;
 
 Outcome ask_named(const char* name, Precision scalar, Task task, const Shape& a, const Pose& pose_a,
                   const Shape& b, const Pose& pose_b) {
-  return ask(*find_narrow_phase(name), settings_of(scalar), task, a, pose_a, b, pose_b);
+  return ask(*registry::find<NarrowPhaseEntry>(name), settings_of(scalar), task, a, pose_a, b,
+             pose_b);
 }
 
 Mat3d turn(double degrees, const Vec3d& axis) {
@@ -310,7 +311,7 @@ TEST(Sat, WitnessPointsLieOnBothBodies) {
     const Pose pose_b{k % 5 == 0 ? Mat3d::Identity() : random_rotation(random),
                       uniform(random, 0, 1.5) * random_direction(random)};
     for (const char* name : {"sat", "closed-form"}) {
-      const NarrowPhaseEntry& entry = *find_narrow_phase(name);
+      const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>(name);
       if (!offers(entry, a.kind, b.kind, Task::penetration)) continue;
       const Outcome outcome = ask(entry, {}, Task::penetration, a, pose_a, b, pose_b);
       if (outcome.answer != Answer::overlapping) continue;

@@ -16,7 +16,7 @@ using namespace test;
 // Calls check(entry, settings) for each algorithm and scalar that is built.
 template <class Check>
 void for_each_algorithm(const Check& check) {
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (!is_built(entry.info)) continue;
     for (const Precision scalar : entry.scalars) {
       SCOPED_TRACE(entry.info.name + " " + std::string(to_string(scalar)));

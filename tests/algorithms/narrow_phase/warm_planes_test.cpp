@@ -211,7 +211,7 @@ TEST(WarmPlanes, BatchesAreAsRightAsTheExactAnswer) {
     Scene scene(random, kind_a, kind_b, count);
     std::vector<Contestant> all;
     for (const char* name : {"gjk", "gjk-lanes", "ellipsoid", "smooth"}) {
-      const NarrowPhaseEntry& entry = *find_narrow_phase(name);
+      const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>(name);
       for (const Task task : {Task::intersect, Task::penetration, Task::signed_distance}) {
         if (!offers(entry, task) || !offers(entry, kind_a, kind_b, task)) continue;
         for (const bool alone : {false, true}) {

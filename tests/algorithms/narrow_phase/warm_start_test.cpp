@@ -181,7 +181,7 @@ Tally play(const NarrowPhaseEntry& entry, Precision scalar, Task task,
 
 std::vector<const NarrowPhaseEntry*> warm_ones() {
   std::vector<const NarrowPhaseEntry*> entries;
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (entry.traits.starts_warm && is_built(entry.info)) entries.push_back(&entry);
   }
   return entries;
@@ -231,7 +231,7 @@ TEST(WarmStart, WhateverIsInMemory) {
 
 // One memory serves every task.
 TEST(WarmStart, TasksMayTakeTurns) {
-  const NarrowPhaseEntry& gjk = *find_narrow_phase("gjk");
+  const NarrowPhaseEntry& gjk = *registry::find<NarrowPhaseEntry>("gjk");
   Random random(11);
   oracle::Oracle oracle;
   for (Pair& pair : pairs_of_all_sorts(random)) {
@@ -254,7 +254,7 @@ struct Work {
 };
 
 Work work_of(const char* name, Task task, bool warm, double distance, int points) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase(name);
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>(name);
   Random random(21);
   Work work;
   for (int n = 0; n < 30; ++n) {

@@ -6,7 +6,7 @@ namespace {
 
 // Few changes at a time go into the tree as it is, and in the end it is loaded anew.
 TEST(BoostRtree, FollowsFewChangesForLong) {
-  const BroadPhaseEntry& entry = *find_broad_phase("boost-rtree");
+  const BroadPhaseEntry& entry = *registry::find<BroadPhaseEntry>("boost-rtree");
   if (!is_built(entry.info)) GTEST_SKIP() << entry.info.reason;
   Frames frames({.name = "few", .count = 400, .moving = 0.01, .churn = 0.01}, 3);
   Executor executor(1);

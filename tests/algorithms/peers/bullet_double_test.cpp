@@ -104,7 +104,7 @@ class BulletDouble : public testing::Test {
  protected:
   void SetUp() override {
     for (const char* name : names) {
-      const NarrowPhaseEntry* const entry = find_narrow_phase(name);
+      const NarrowPhaseEntry* const entry = registry::find<NarrowPhaseEntry>(name);
       ASSERT_NE(entry, nullptr) << name;
       if (!is_built(entry->info)) GTEST_SKIP() << entry->info.reason;
       if (!offers(*entry, Precision::float64)) GTEST_SKIP() << entry->info.lacking;

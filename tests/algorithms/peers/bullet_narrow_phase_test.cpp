@@ -159,7 +159,7 @@ using Build = std::tuple<const char*, Precision>;  // an algorithm in one of Bul
 class BulletNarrowPhaseTest : public testing::TestWithParam<Build> {
  protected:
   void SetUp() override {
-    entry_ = find_narrow_phase(std::get<0>(GetParam()));
+    entry_ = registry::find<NarrowPhaseEntry>(std::get<0>(GetParam()));
     ASSERT_NE(entry_, nullptr);
     if (!is_built(entry_->info)) GTEST_SKIP() << entry_->info.reason;
     if (!offers(*entry_, scalar_)) GTEST_SKIP() << entry_->info.lacking;
@@ -416,7 +416,7 @@ TEST_P(BulletNarrowPhaseTest, EndsOnDegenerateInput) {
 
 TEST(BulletNarrowPhase, SaysWhatItTakes) {
   for (const char* name : bullet_names) {
-    const NarrowPhaseEntry* entry = find_narrow_phase(name);
+    const NarrowPhaseEntry* entry = registry::find<NarrowPhaseEntry>(name);
     ASSERT_NE(entry, nullptr) << name;
     EXPECT_TRUE(offers(*entry, Precision::float32));
     if (is_built(entry->info)) {
@@ -426,14 +426,14 @@ TEST(BulletNarrowPhase, SaysWhatItTakes) {
     EXPECT_TRUE(offers(*entry, ShapeKind::box, ShapeKind::box, Task::penetration));
     EXPECT_EQ(is_built(entry->info), static_cast<bool>(entry->make));
   }
-  EXPECT_FALSE(offers(*find_narrow_phase("bullet-box-box"), ShapeKind::box, ShapeKind::hull,
-                      Task::intersect));
-  EXPECT_TRUE(
-      offers(*find_narrow_phase("bullet-sat"), ShapeKind::hull, ShapeKind::box, Task::intersect));
+  EXPECT_FALSE(offers(*registry::find<NarrowPhaseEntry>("bullet-box-box"), ShapeKind::box,
+                      ShapeKind::hull, Task::intersect));
+  EXPECT_TRUE(offers(*registry::find<NarrowPhaseEntry>("bullet-sat"), ShapeKind::hull,
+                     ShapeKind::box, Task::intersect));
 }
 
 TEST(BulletNarrowPhase, MprStopsAtTheCapItIsGiven) {
-  const NarrowPhaseEntry* entry = find_narrow_phase("bullet-mpr");
+  const NarrowPhaseEntry* entry = registry::find<NarrowPhaseEntry>("bullet-mpr");
   ASSERT_NE(entry, nullptr);
   if (!is_built(entry->info)) GTEST_SKIP() << entry->info.reason;
   Pair pair = stacked(ellipsoid({1, 2, 3}), ellipsoid({3, 1, 2}), -1, motions()[1]);

@@ -4,7 +4,7 @@
 namespace touchstone {
 namespace {
 
-class EmbreeBroadPhaseTest : public PeerTest<find_broad_phase> {};
+class EmbreeBroadPhaseTest : public PeerTest<registry::find<BroadPhaseEntry>> {};
 
 // Several threads, and instances of other widths beside it.
 TEST_P(EmbreeBroadPhaseTest, FindsTheSamePairsAtEveryWidth) {

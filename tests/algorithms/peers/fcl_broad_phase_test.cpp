@@ -4,7 +4,7 @@
 namespace touchstone {
 namespace {
 
-class FclBroadPhaseTest : public PeerTest<find_broad_phase> {};
+class FclBroadPhaseTest : public PeerTest<registry::find<BroadPhaseEntry>> {};
 
 TEST_P(FclBroadPhaseTest, FindsTheClosedPairsOfEveryFrame) {
   const bool misses_touching = !entry_->info.known_defect.empty();
@@ -47,7 +47,7 @@ TEST_P(FclBroadPhaseTest, TakesBodiesOfWhichNoneIsLeft) {
 
 TEST(PeerBroadPhases, AreBuiltOrSayWhyNot) {
   int peers = 0;
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     peers += entry.info.origin == Origin::peer;
     EXPECT_EQ(static_cast<bool>(entry.make), entry.info.reason.empty()) << entry.info.name;
     EXPECT_FALSE(entry.info.citation.empty()) << entry.info.name;
@@ -62,7 +62,7 @@ TEST(PeerBroadPhases, ConvertBoxesApart) {
   const std::vector<Aabb> others =
       Frames({.name = "far away", .count = 300, .offset = 1e6F}, 2).boxes();
   const std::vector<IndexPair> truth = closed_pairs(boxes);
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (!is_built(entry.info)) continue;
     SCOPED_TRACE(entry.info.name);
     Executor executor(1);

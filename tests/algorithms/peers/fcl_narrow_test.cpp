@@ -37,8 +37,8 @@ class FclTest : public testing::Test {
     }
   }
 
-  const NarrowPhaseEntry* libccd_ = find_narrow_phase("fcl-libccd");
-  const NarrowPhaseEntry* indep_ = find_narrow_phase("fcl-indep");
+  const NarrowPhaseEntry* libccd_ = registry::find<NarrowPhaseEntry>("fcl-libccd");
+  const NarrowPhaseEntry* indep_ = registry::find<NarrowPhaseEntry>("fcl-indep");
 };
 
 TEST_F(FclTest, OffersWhatFclHas) {
@@ -190,7 +190,7 @@ TEST_F(FclTest, ToleranceAndCapReachTheSolvers) {
 }
 
 TEST_F(FclTest, AnswersAgreeOnRandomPairs) {
-  const NarrowPhaseEntry* mpr = find_narrow_phase("libccd-mpr");
+  const NarrowPhaseEntry* mpr = registry::find<NarrowPhaseEntry>("libccd-mpr");
   ASSERT_NE(mpr, nullptr);
   std::vector<const NarrowPhaseEntry*> others = {indep_};
   if (is_built(mpr->info)) others.push_back(mpr);

@@ -22,9 +22,9 @@ class LibccdTest : public testing::Test {
     }
   }
 
-  const NarrowPhaseEntry* gjk_ = find_narrow_phase("libccd-gjk");
-  const NarrowPhaseEntry* epa_ = find_narrow_phase("libccd-epa");
-  const NarrowPhaseEntry* mpr_ = find_narrow_phase("libccd-mpr");
+  const NarrowPhaseEntry* gjk_ = registry::find<NarrowPhaseEntry>("libccd-gjk");
+  const NarrowPhaseEntry* epa_ = registry::find<NarrowPhaseEntry>("libccd-epa");
+  const NarrowPhaseEntry* mpr_ = registry::find<NarrowPhaseEntry>("libccd-mpr");
 };
 
 TEST_F(LibccdTest, OffersBoundedShapesInDouble) {

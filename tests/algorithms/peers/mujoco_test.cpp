@@ -20,7 +20,7 @@ class MujocoTest : public testing::Test {
     if (!is_built(entry_->info)) GTEST_SKIP() << entry_->info.reason;
   }
 
-  const NarrowPhaseEntry* entry_ = find_narrow_phase("mujoco");
+  const NarrowPhaseEntry* entry_ = registry::find<NarrowPhaseEntry>("mujoco");
 };
 
 bool both_are(const KnownPair& pair, ShapeKind kind) {
@@ -103,7 +103,7 @@ TEST_F(MujocoTest, TurnsTheAnswerForThePairInItsOwnOrder) {
 }
 
 TEST_F(MujocoTest, AgreesOnRandomPairs) {
-  const NarrowPhaseEntry* gjk = find_narrow_phase("gjk");
+  const NarrowPhaseEntry* gjk = registry::find<NarrowPhaseEntry>("gjk");
   ASSERT_NE(gjk, nullptr);
   const Agreement count = agreement(*entry_, *gjk, 100, {});
   EXPECT_LE(count.disagree, 2);

@@ -6,7 +6,7 @@
 namespace touchstone {
 namespace {
 
-class OdeBroadPhaseTest : public PeerTest<find_broad_phase> {};
+class OdeBroadPhaseTest : public PeerTest<registry::find<BroadPhaseEntry>> {};
 
 // ODE aborts where the cell of a coordinate is beyond an int.
 TEST_P(OdeBroadPhaseTest, BearsDustFarAway) {
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Ode, OdeBroadPhaseTest,
 
 // Its table of pairs has a limit, beyond which ODE aborts.
 TEST(OdeHash, SaysWhatIsTooMuchForIt) {
-  const BroadPhaseEntry& entry = *find_broad_phase("ode-hash");
+  const BroadPhaseEntry& entry = *registry::find<BroadPhaseEntry>("ode-hash");
   if (!is_built(entry.info)) GTEST_SKIP() << entry.info.reason;
   std::vector<Aabb> boxes(std::size_t{1} << 17);
   for (std::size_t i = 0; i < boxes.size(); ++i) {

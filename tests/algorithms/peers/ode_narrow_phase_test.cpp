@@ -22,7 +22,7 @@ class OdeNarrowPhaseTest : public testing::Test {
     return ask(*entry_, task, a, b, {.scalar = entry_->scalars.front()});
   }
 
-  const NarrowPhaseEntry* entry_ = find_narrow_phase("ode");
+  const NarrowPhaseEntry* entry_ = registry::find<NarrowPhaseEntry>("ode");
 };
 
 TEST_F(OdeNarrowPhaseTest, OffersSpheresCapsulesBoxesAndPlanes) {
@@ -89,7 +89,7 @@ TEST_F(OdeNarrowPhaseTest, BodiesMayShareAShape) {
 }
 
 TEST_F(OdeNarrowPhaseTest, AgreesOnRandomPairs) {
-  const NarrowPhaseEntry* closed_form = find_narrow_phase("closed-form");
+  const NarrowPhaseEntry* closed_form = registry::find<NarrowPhaseEntry>("closed-form");
   ASSERT_NE(closed_form, nullptr);
   const Agreement count =
       agreement(*entry_, *closed_form, 200, {.scalar = entry_->scalars.front()});

@@ -5,7 +5,7 @@
 namespace touchstone {
 namespace {
 
-class PeerBroadPhaseTest : public PeerTest<find_broad_phase> {
+class PeerBroadPhaseTest : public PeerTest<registry::find<BroadPhaseEntry>> {
  protected:
   std::vector<IndexPair> pairs_of(std::span<const Aabb> boxes) const {
     Executor executor(1);

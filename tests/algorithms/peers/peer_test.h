@@ -11,7 +11,7 @@
 namespace touchstone {
 
 // The parameter is the algorithm's name; the test is skipped where it is not built. `find` is
-// find_broad_phase or find_narrow_phase.
+// registry::find<BroadPhaseEntry> or registry::find<NarrowPhaseEntry>.
 template <auto find>
 class PeerTest : public testing::TestWithParam<const char*> {
  protected:

@@ -28,7 +28,7 @@ std::vector<PointAnswer> answers_of(const PointQueryEntry& entry, PointTask task
   return answers;
 }
 
-const PointQueryEntry& oracle_of_points() { return *find_point_query("exact"); }
+const PointQueryEntry& oracle_of_points() { return *registry::find<PointQueryEntry>("exact"); }
 
 TEST(PointQueries, KnowTheirSideOfASurface) {
   std::array<int, 3> sides{};
@@ -39,7 +39,7 @@ TEST(PointQueries, KnowTheirSideOfASurface) {
         mesh, most / static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1)), 3);
     const auto exact = answers_of(oracle_of_points(), PointTask::side, mesh, points);
     for (const PointAnswer& answer : exact) ++sides.at(static_cast<std::size_t>(answer.side));
-    for (const PointQueryEntry& entry : point_queries()) {
+    for (const PointQueryEntry& entry : registry::entries<PointQueryEntry>()) {
       if (entry.info.origin == Origin::peer) continue;
       for (const Isa level : isa_levels()) {
         limit_isa(level);
@@ -90,7 +90,7 @@ TEST(PointQueries, FindTheClosestPoint) {
       EXPECT_NEAR((exact[i].closest - points[i]).stableNorm(), exact[i].distance,
                   4e-15 * (points[i].stableNorm() + exact[i].distance));
     }
-    for (const PointQueryEntry& entry : point_queries()) {
+    for (const PointQueryEntry& entry : registry::entries<PointQueryEntry>()) {
       if (entry.info.origin != Origin::ours) continue;
       for (const Isa level : isa_levels()) {
         limit_isa(level);
@@ -114,7 +114,7 @@ TEST(PointQueries, FindTheClosestPointFromAfar) {
                                      {0, 1e30, 0},      {1e100, 0, -1e100}, {1e160, 0, 0},
                                      {0, -1e200, 1e150}};
   const auto exact = answers_of(oracle_of_points(), PointTask::closest, mesh, points);
-  for (const PointQueryEntry& entry : point_queries()) {
+  for (const PointQueryEntry& entry : registry::entries<PointQueryEntry>()) {
     if (entry.info.origin != Origin::ours) continue;
     const auto found = answers_of(entry, PointTask::closest, mesh, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -150,7 +150,7 @@ TEST(PeersPointQueries, AgreeButForRounding) {
   const auto near = answers_of(oracle_of_points(), PointTask::closest, mesh, points);
   const auto sides = answers_of(oracle_of_points(), PointTask::side, mesh, points);
   int inside = 0, outside = 0;
-  for (const PointQueryEntry& entry : point_queries()) {
+  for (const PointQueryEntry& entry : registry::entries<PointQueryEntry>()) {
     if (entry.info.origin != Origin::peer || !is_built(entry.info)) continue;
     const auto found = answers_of(entry, PointTask::closest, mesh, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -164,7 +164,8 @@ TEST(PeersPointQueries, AgreeButForRounding) {
       ++(sides[i].side == PointSide::inside ? inside : outside);
     }
   }
-  if (const auto* cgal = find_point_query("cgal-aabb-tree"); cgal && is_built(cgal->info)) {
+  if (const auto* cgal = registry::find<PointQueryEntry>("cgal-aabb-tree");
+      cgal && is_built(cgal->info)) {
     EXPECT_GT(inside, 0);
     EXPECT_GT(outside, 0);
   }
@@ -173,7 +174,7 @@ TEST(PeersPointQueries, AgreeButForRounding) {
 TEST(PointQueries, SayWhatPointsAreNone) {
   const TriangleMesh mesh = families::ellipsoid_mesh({2, 2, 2}, 8, 6);
   constexpr double inf = std::numeric_limits<double>::infinity();
-  for (const PointQueryEntry& entry : point_queries()) {
+  for (const PointQueryEntry& entry : registry::entries<PointQueryEntry>()) {
     if (!is_built(entry.info)) continue;
     for (const PointTask task : entry.tasks) {
       const auto answers = answers_of(entry, task, mesh, {{0, inf, 0}, {std::nan(""), 0, 0}});

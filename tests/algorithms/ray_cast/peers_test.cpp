@@ -23,7 +23,7 @@ std::vector<RayHit> asked(const RayCastEntry& entry, Precision scalar, RayTask t
 }
 
 TEST(ApproximateRayCasts, AgreeOnRaysInAnyDirection) {
-  for (const RayCastEntry& entry : ray_casts()) {
+  for (const RayCastEntry& entry : registry::entries<RayCastEntry>()) {
     if (entry.exact_verdicts || !is_built(entry.info)) continue;
     for (const auto& [name, mesh] : families::ray_meshes()) {
       // Only of these are all triangles such that every library takes them.
@@ -31,7 +31,8 @@ TEST(ApproximateRayCasts, AgreeOnRaysInAnyDirection) {
       SCOPED_TRACE(entry.info.name + " " + name);
       const auto rays = families::random_rays(mesh, drawn(1000, 100), 23);
       for (const Precision scalar : entry.scalars) {
-        const auto exact = asked(*find_ray_cast("exact"), scalar, RayTask::closest, mesh, rays);
+        const auto exact =
+            asked(*registry::find<RayCastEntry>("exact"), scalar, RayTask::closest, mesh, rays);
         for (const RayTask task : entry.tasks) {
           const auto hits = asked(entry, scalar, task, mesh, rays);
           int found = 0, missed = 0, wrong = 0;
@@ -60,7 +61,7 @@ TEST(ApproximateRayCasts, AgreeOnRaysInAnyDirection) {
 
 TEST(ApproximateRayCasts, AreBoundAgain) {
   const std::vector<Ray> down = {{{0.25, 0.25, 9}, {0, 0, -1}}};
-  for (const RayCastEntry& entry : ray_casts()) {
+  for (const RayCastEntry& entry : registry::entries<RayCastEntry>()) {
     if (!is_built(entry.info)) continue;
     const auto cast = entry.make({entry.scalars.front()});
     RayHit hit;

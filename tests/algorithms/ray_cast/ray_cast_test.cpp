@@ -31,12 +31,12 @@ std::vector<RayHit> cast_by(const RayCastEntry& entry, Precision scalar, RayTask
 
 std::vector<RayHit> exact_hits(Precision scalar, const TriangleMesh& mesh,
                                const std::vector<Ray>& rays) {
-  return cast_by(*find_ray_cast("exact"), scalar, RayTask::closest, mesh, rays);
+  return cast_by(*registry::find<RayCastEntry>("exact"), scalar, RayTask::closest, mesh, rays);
 }
 
 std::vector<const RayCastEntry*> exact_casts() {
   std::vector<const RayCastEntry*> all;
-  for (const RayCastEntry& entry : ray_casts()) {
+  for (const RayCastEntry& entry : registry::entries<RayCastEntry>()) {
     if (entry.exact_verdicts && entry.info.origin == Origin::ours) all.push_back(&entry);
   }
   return all;
@@ -155,7 +155,8 @@ TEST(RayCasts, NoneSlipsOutOfAClosedMesh) {
     }
     for (const Precision scalar : scalars_of_casts) {
       for (const RayTask task : {RayTask::closest, RayTask::any}) {
-        for (const RayHit& hit : cast_by(*find_ray_cast("wide-bvh"), scalar, task, mesh, rays)) {
+        for (const RayHit& hit :
+             cast_by(*registry::find<RayCastEntry>("wide-bvh"), scalar, task, mesh, rays)) {
           ASSERT_TRUE(hit.hit);
         }
       }
@@ -171,7 +172,7 @@ TEST(RayCasts, SayWhatRaysAreNone) {
                                      {{0, 0, 0}, {1, nan, 0}}, {{inf, 0, 0}, {1, 0, 0}},
                                      {{0, 0, 0}, {0, inf, 0}}, {{0, 0, 0}, {1, 0, 0}, nan}};
   const std::vector<Ray> behind = {{{0, 0, 0}, {1, 0, 0}, -1}, {{0, 0, 0}, {1, 0, 0}, -inf}};
-  for (const RayCastEntry& entry : ray_casts()) {
+  for (const RayCastEntry& entry : registry::entries<RayCastEntry>()) {
     if (!entry.exact_verdicts) continue;
     for (const RayHit& hit : cast_by(entry, Precision::float64, RayTask::closest, mesh, improper)) {
       EXPECT_FALSE(hit.hit) << entry.info.name;

@@ -24,7 +24,7 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 std::vector<SceneRayHit> cast_by(const std::string& name, RayTask task,
                                  const std::vector<SceneBody>& bodies,
                                  const std::vector<Ray>& rays) {
-  const auto cast = find_scene_ray_cast(name)->make();
+  const auto cast = registry::find<SceneRayCastEntry>(name)->make();
   cast->bind(bodies);
   std::vector<SceneRayHit> hits(rays.size());
   cast->cast(task, rays, hits);
@@ -207,7 +207,7 @@ TEST(SceneRayCasts, AtWholeScenesAreAsTheOracleSays) {
   if (HasFatalFailure()) return;
   EXPECT_GT(outcomes.hits, 5);
 
-  const auto cast = find_scene_ray_cast("wide-bvh")->make();
+  const auto cast = registry::find<SceneRayCastEntry>("wide-bvh")->make();
   cast->bind(bodies);
   std::vector<Pose> poses;
   for (SceneBody& body : bodies) {
@@ -265,7 +265,7 @@ TEST(SceneRayCasts, AtAMeshUnderAPoseThatRoundsNothingAreThoseAtTheMesh) {
     add({0, 0, 4}, 0.5 * (mesh.vertices[b] + mesh.vertices[c]) - Vec3d(0, 0, 4));
   }
   const auto hits = cast_by("exact", RayTask::closest, {body}, rays);
-  const auto cast = find_ray_cast("exact")->make({});
+  const auto cast = registry::find<RayCastEntry>("exact")->make({});
   cast->bind(mesh);
   std::vector<RayHit> truths(local.size());
   cast->cast(RayTask::closest, local, truths);
@@ -284,7 +284,7 @@ TEST(SceneRayCasts, AtAMeshUnderAPoseThatRoundsNothingAreThoseAtTheMesh) {
 }
 
 TEST(SceneRayCasts, SayWhatRaysAreNoneAndMissWhatIsEmpty) {
-  for (const SceneRayCastEntry& entry : scene_ray_casts()) {
+  for (const SceneRayCastEntry& entry : registry::entries<SceneRayCastEntry>()) {
     const auto cast = entry.make();
     cast->bind({});
     std::vector<SceneRayHit> hits(2);

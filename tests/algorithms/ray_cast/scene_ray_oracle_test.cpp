@@ -18,7 +18,7 @@ SceneBody resting(const Shape& shape) {
 
 // A curved body's time is an enclosure: where another body's is within it, nobody says which one is first.
 TEST(SceneRayOracle, DoesNotGuessWhichBodyIsFirst) {
-  const auto exact = find_scene_ray_cast("exact")->make();
+  const auto exact = registry::find<SceneRayCastEntry>("exact")->make();
   const std::vector<Ray> down = {{.origin = {0, 0, 10}, .direction = {0, 0, -1}}};
   int known = 0, open = 0;
   for (const double higher : {1e-13, 1e-11, 1e-3, 0.0, -1e-3}) {
@@ -39,7 +39,7 @@ TEST(SceneRayOracle, DoesNotGuessWhichBodyIsFirst) {
 
 // Bodies beyond floats, and directions near the least and the greatest doubles: the answer is that at about 1, or none.
 TEST(SceneRayOracle, MissesNothingAtAnyScale) {
-  const auto exact = find_scene_ray_cast("exact")->make();
+  const auto exact = registry::find<SceneRayCastEntry>("exact")->make();
   int hits = 0, open = 0;
   for (const int power : {-900, -300, 0, 125, 130, 300, 900, 1015}) {
     const double size = std::ldexp(1.0, power);

@@ -14,7 +14,7 @@ namespace {
 
 void cast_at(RayTask task, std::span<const SceneBody> bodies, std::span<const Ray> rays,
              std::span<SceneRayHit> hits) {
-  const auto cast = find_scene_ray_cast("wide-bvh")->make();
+  const auto cast = registry::find<SceneRayCastEntry>("wide-bvh")->make();
   cast->bind(bodies);
   cast->cast(task, rays, hits);
 }

@@ -49,7 +49,7 @@ void add_listed(const std::string& filter, std::set<std::string>& names) {
 std::set<std::string> listed() {
   std::set<std::string> names;
   add_listed("^(broad|kernels|meshes|oracle)/", names);
-  for (const NarrowPhaseEntry& entry : narrow_phases())
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>())
     add_listed("^narrow/" + std::string(entry.info.name) + "/", names);
   return names;
 }
@@ -94,14 +94,14 @@ TEST(PlacedPairs, HoldEveryTwoKindsAndEachFamilyOfHulls) {
 
 TEST(Bench, ListsEveryRegisteredAlgorithm) {
   const std::set<std::string> names = listed();
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     for (const char* rest : {"/uniform/1000/build", "/clustered/10000/find-pairs",
                              "/mixed/1000/update", "/city/10000/find-pairs-updated"}) {
       EXPECT_EQ(names.contains("broad/" + entry.info.name + rest), is_built(entry.info))
           << entry.info.name << rest;
     }
   }
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     for (const Precision scalar : entry.scalars) {
       for (const Task task : entry.tasks) {
         for (const bench::FamilyPair& pair : bench::family_pairs()) {
@@ -117,7 +117,7 @@ TEST(Bench, ListsEveryRegisteredAlgorithm) {
       }
     }
   }
-  for (const MidPhaseEntry& entry : mid_phases()) {
+  for (const MidPhaseEntry& entry : registry::entries<MidPhaseEntry>()) {
     for (const char* rest : {"/torus-2000/build", "/trefoil-10000/refit"}) {
       EXPECT_TRUE(names.contains("meshes/mid/" + entry.info.name + rest)) << entry.info.name;
     }
@@ -137,7 +137,7 @@ TEST(Bench, RunsWhatTheFilterTakesAndWritesJson) {
   const TemporaryFolder folder;
   const std::filesystem::path out = folder.path() / "out.json";
   const std::string filter =
-      "'^(broad/(naive|sweep-and-prune)/(uniform|city)/1000/|"
+      "'^(broad/(naive|sweep-one-axis)/(uniform|city)/1000/|"
       "narrow/(gjk|sat|closed-form)/double/(box-box|sphere-box|capsule-capsule)/|"
       "kernels/(support/float/(box|hull-32)|radix-sort/1000$|insertion-sort/1000$|"
       "box-(scan|sweep)/baseline/1000|box-axes)|meshes/mid/[a-z-]+/torus-2000/|oracle/verdict/"

@@ -170,7 +170,7 @@ counts = [10, 20]
 [[group]]
 scenes = "a.toml"
 threads = 3
-broad = ["naive", "sweep-and-prune"]
+broad = ["naive", "sweep-one-axis"]
 narrow = ["gjk"]
 scalars = "double"
 tolerances = [1e-3, 1e-6]
@@ -192,7 +192,7 @@ time_limit = 0.5
   const campaign::CampaignGroup& second = campaign.groups[1];
   EXPECT_EQ(second.threads, std::vector{3});
   ASSERT_EQ(second.broad.size(), 2u);
-  EXPECT_EQ(second.broad[1]->info.name, "sweep-and-prune");
+  EXPECT_EQ(second.broad[1]->info.name, "sweep-one-axis");
   ASSERT_EQ(second.narrow.size(), 2u);
   EXPECT_EQ(second.narrow[1].settings.tolerance, 1e-6);
   EXPECT_EQ(second.narrow[1].settings.max_iterations, 9);
@@ -211,7 +211,7 @@ TEST_F(CampaignFile, TellsFaultsWithTheirLine) {
   using testing::HasSubstr;
   EXPECT_THAT(fault("name = 'x'"), HasSubstr("scenes"));
   EXPECT_THAT(fault("scenes = 'a.toml'\n\nbroad = 'sap'"),
-              AllOf(HasSubstr("c.toml:3:"), HasSubstr("'sap'"), HasSubstr("sweep-and-prune")));
+              AllOf(HasSubstr("c.toml:3:"), HasSubstr("'sap'"), HasSubstr("sweep-one-axis")));
   EXPECT_THAT(fault("scenes = 'a.toml'\nthreads = 0"), HasSubstr("c.toml:2:"));
   EXPECT_THAT(fault("scenes = 'a.toml'\nthreads = 'two'"), HasSubstr("c.toml:2:"));
   EXPECT_THAT(fault("scenes = 'a.toml'\ntask = 'distance'"),

@@ -13,10 +13,10 @@ namespace {
 
 TEST(Campaigns, AllAreReadAndTheirScenesAreThere) {
   // The campaigns name peers, which must be built.
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (!is_built(entry.info)) GTEST_SKIP() << entry.info.name << ": " << entry.info.reason;
   }
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (!is_built(entry.info)) GTEST_SKIP() << entry.info.name << ": " << entry.info.reason;
   }
   int count = 0;

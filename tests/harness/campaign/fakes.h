@@ -27,7 +27,7 @@ class FakeBroadPhase final : public BroadPhase {
  public:
   using Hook = std::function<void(int call, PairSink& sink)>;
   FakeBroadPhase(Executor& executor, Hook hook)
-      : naive_(find_broad_phase("naive")->make(executor)), hook_(std::move(hook)) {}
+      : naive_(registry::find<BroadPhaseEntry>("naive")->make(executor)), hook_(std::move(hook)) {}
   void build(std::span<const Aabb> boxes) override { naive_->build(boxes); }
   void update(const FrameChange& change) override { naive_->update(change); }
   Status find_pairs(PairSink& sink) override {

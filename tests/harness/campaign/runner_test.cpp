@@ -139,7 +139,7 @@ TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
   for (const record::RawRow& row : result.findings.rows()) {
     EXPECT_EQ(row.bodies, 120);
     if (row.kind != record::RowKind::check || row.phase != record::Phase::find_pairs) continue;
-    const BroadPhaseEntry* const entry = find_broad_phase(row.broad);
+    const BroadPhaseEntry* const entry = registry::find<BroadPhaseEntry>(row.broad);
     if (!entry->info.known_defect.empty()) continue;
     hashes[row.frame].insert(row.pair_hash);
     found_by[row.frame].insert(row.broad);
@@ -156,7 +156,7 @@ TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
 
 TEST_F(Runner, RebuildsHoldsInstructionsDownAndMeasuresTheLimit) {
   const campaign::Campaign c = campaign(
-      "broad = ['naive', 'sweep-and-prune']\nnarrow = 'none'\nthreads = 1\nlimit = true\n"
+      "broad = ['naive', 'sweep-one-axis']\nnarrow = 'none'\nthreads = 1\nlimit = true\n"
       "isa = ['all', 'baseline']\nsquares = 6\nrounds = 1\nprocesses = 1\n"
       "[[group]]\nrebuild = true\n[[group]]\n");
   const Isa before = isa();
@@ -176,7 +176,7 @@ TEST_F(Runner, RebuildsHoldsInstructionsDownAndMeasuresTheLimit) {
              [row.broad];
   }
   ASSERT_EQ(samples.size(), 4u);
-  const std::map<std::string, int> each = {{"naive", 6}, {"sweep-and-prune", 6}, {"limit", 6}};
+  const std::map<std::string, int> each = {{"naive", 6}, {"sweep-one-axis", 6}, {"limit", 6}};
   for (const auto& [block, counts] : samples) EXPECT_EQ(counts, each) << block;
   // The results have four sets, not one.
   const stats::Results read = stats::read_results(out());
@@ -198,7 +198,7 @@ TEST_F(Runner, WhoWasTooSlowWithFewerIsNotTriedWithMore) {
   // Time in which another process had the processor does not count, so one frame alone may seem to
   // take none.
   const std::string text =
-      "broad = ['naive', 'sweep-and-prune']\nnarrow = 'none'\nthreads = [1, 2]\nsquares = 6\n"
+      "broad = ['naive', 'sweep-one-axis']\nnarrow = 'none'\nthreads = [1, 2]\nsquares = 6\n"
       "counts = [100, 200]\nframes = 20\n";
   const campaign::RunResult all = campaign::run_campaign(campaign(text), out());
   for (const record::RawRow& row : all.findings.rows()) EXPECT_FALSE(row.lost());

@@ -108,8 +108,10 @@ TEST_F(Warm, AnswersDoNotDependOnTheBatch) {
   Executor two(2);
   for (const bool warm : {false, true}) {
     const auto sampler = [&](int batch) {
-      const measure::NarrowChoice choice{
-          .entry = find_narrow_phase("gjk"), .settings = {}, .warm = warm, .batch = batch};
+      const measure::NarrowChoice choice{.entry = registry::find<NarrowPhaseEntry>("gjk"),
+                                         .settings = {},
+                                         .warm = warm,
+                                         .batch = batch};
       return measure::NarrowSampler(choice, input, sets, two);
     };
     measure::NarrowSampler whole = sampler(measure::usual_batch), sevens = sampler(7),
@@ -135,7 +137,7 @@ TEST_F(Warm, AnswersDoNotDependOnTheWindow) {
   constexpr std::array tasks = {record::QueryTask::distance, record::QueryTask::intersect};
   const std::vector<measure::NarrowSet> sets = measure::narrow_sets(input, "", pairs, tasks);
   const measure::NarrowChoice choice{
-      .entry = find_narrow_phase("gjk"), .settings = {}, .warm = true};
+      .entry = registry::find<NarrowPhaseEntry>("gjk"), .settings = {}, .warm = true};
   Executor one(1), two(2);
   measure::NarrowSampler straight(choice, input, sets, one), narrow(choice, input, sets, one),
       wide(choice, input, sets, two);

@@ -20,7 +20,8 @@ namespace {
 // A naive broad phase with counters, which allocates a little in each update and find_pairs.
 class Counting final : public BroadPhase {
  public:
-  explicit Counting(Executor& executor) : naive_(find_broad_phase("naive")->make(executor)) {}
+  explicit Counting(Executor& executor)
+      : naive_(registry::find<BroadPhaseEntry>("naive")->make(executor)) {}
   void build(std::span<const Aabb> boxes) override {
     kept_.clear();
     naive_->build(boxes);
@@ -87,7 +88,8 @@ TEST(WorkColumns, OfTheCheck) {
 // A peer that converts boxes in a time proportional to their number; the first time is cold.
 class Converting final : public PeerBroadPhase {
  public:
-  explicit Converting(Executor& executor) : naive_(find_broad_phase("naive")->make(executor)) {
+  explicit Converting(Executor& executor)
+      : naive_(registry::find<BroadPhaseEntry>("naive")->make(executor)) {
     FakeClock::start();
   }
   void build(std::span<const Aabb> boxes) override { naive_->build(boxes); }

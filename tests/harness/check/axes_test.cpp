@@ -316,7 +316,7 @@ TEST(RingedHull, TwoLargeOnesAreMoreThanSatWillLookAt) {
     c.shape_a.hull = check::ringed_hull(vertices, Vec3d(1, 0.75, 0.5));
     c.shape_b = c.shape_a;
     c.pose_b.translation = {apart, 0.25, 0.125};
-    return process::solve_case(*find_narrow_phase(name), {}, c, Task::penetration);
+    return process::solve_case(*registry::find<NarrowPhaseEntry>(name), {}, c, Task::penetration);
   };
   for (const char* name : {"sat", "sat-faces"}) {
     EXPECT_EQ(solved(1000, 1, name).status, Status::ok);

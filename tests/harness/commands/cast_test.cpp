@@ -47,7 +47,7 @@ class CastCommand : public ::testing::Test {
 
 TEST_F(CastCommand, PlainCasesByEveryCast) {
   std::vector<std::string> names;
-  for (const CastEntry& entry : casts()) {
+  for (const CastEntry& entry : registry::entries<CastEntry>()) {
     if (is_built(entry.info)) names.push_back(entry.info.name);
   }
   const std::string cases = box_and_moving_ball("hit", -4) + box_and_moving_ball("miss", -1) +
@@ -69,7 +69,7 @@ TEST_F(CastCommand, PlainCasesByEveryCast) {
       const auto& row = rows[i];
       EXPECT_EQ(row[1], names[i % names.size()]);
       EXPECT_EQ(row[2], scalar);
-      const CastEntry& entry = *find_cast(row[1]);
+      const CastEntry& entry = *registry::find<CastEntry>(row[1]);
       CastSettings settings;
       settings.scalar = scalar == "float" ? Precision::float32 : Precision::float64;
       const bool taken = offers(entry, settings) &&

@@ -84,7 +84,7 @@ TEST_F(CcdCommand, EveryAlgorithmGivesTheRowsOfTheContract) {
     const auto rows = read_rows(out(), ccd_columns);
     std::size_t next = 0;
     for (int query = 0; query < 2; ++query) {
-      for (const CcdEntry& entry : ccds()) {
+      for (const CcdEntry& entry : registry::entries<CcdEntry>()) {
         if (!is_built(entry.info)) continue;
         ASSERT_LT(next, rows.size());
         const auto& row = rows[next++];
@@ -157,7 +157,7 @@ TEST_F(CcdCommand, AMissedContactOfOursIsAnError) {
   const auto file = folder.write("in.csv", falling(",1", ",1"));
   EXPECT_EQ(run(file).status, 1);
   EXPECT_EQ(run(file, "--ccd exact").status, 1);
-  if (is_built(find_ccd("fcl-cubic")->info)) {
+  if (is_built(registry::find<CcdEntry>("fcl-cubic")->info)) {
     EXPECT_EQ(run(file, "--ccd fcl-cubic").status, 0);
   }
   EXPECT_EQ(run(folder.write("in.csv", falling(",0", ",0"))).status, 0);

@@ -46,7 +46,7 @@ TEST_F(CheckCommand, GradesOursAndFindsThemWithinTheirMargins) {
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("None of our own algorithms is wrong beyond its margin."));
   std::set<std::string> names, of_regimes;
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (entry.info.origin == Origin::ours) names.insert(entry.info.name);
   }
   for (const check::Regime& regime : check::regimes()) of_regimes.insert(regime.name);
@@ -64,7 +64,8 @@ TEST_F(CheckCommand, GradesOursAndFindsThemWithinTheirMargins) {
 }
 
 TEST_F(CheckCommand, APeersDefectIsNoFailureAndIsReplayed) {
-  if (find_narrow_phase("libccd-gjk")->make == nullptr) GTEST_SKIP() << "libccd is not built";
+  if (registry::find<NarrowPhaseEntry>("libccd-gjk")->make == nullptr)
+    GTEST_SKIP() << "libccd is not built";
   // libccd reports these gaps as overlaps.
   const Ran ran = check("--narrow libccd-gjk --broad none --regimes gap-1e-9 --cases 20");
   EXPECT_EQ(ran.status, 0) << ran.text;

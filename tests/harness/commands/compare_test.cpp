@@ -30,7 +30,7 @@ TEST_F(CompareCommand, TheSameIsStatusZero) {
   EXPECT_THAT(ran.text, testing::HasSubstr("5 cells: 0 slower, 0 undecided, 5 same"));
   const auto rows = read_rows(folder_.path() / "cells.csv", {"algorithm", "verdict"});
   ASSERT_EQ(rows.size(), 5u);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"sweep-and-prune", "same"}));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"sweep-one-axis", "same"}));
   // raw.csv files are accepted like folders.
   EXPECT_EQ(run_program("compare " + path("a/raw.csv") + " " + path("b/raw.csv")).status, 0);
 }

@@ -75,7 +75,7 @@ TEST(ManifoldCommand, GradesEveryFamilyOfEveryAlgorithm) {
   const auto page = folder.path() / "page.md";
   const Ran ran = run_program("manifold --settled 3 --grade --page " + page.string());
   EXPECT_EQ(ran.status, 0) << ran.text;
-  for (const ManifoldEntry& entry : contact_manifolds()) {
+  for (const ManifoldEntry& entry : registry::entries<ManifoldEntry>()) {
     if (is_built(entry.info)) {
       EXPECT_THAT(ran.text, HasSubstr(entry.info.name));
     }

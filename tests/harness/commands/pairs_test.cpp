@@ -84,7 +84,7 @@ TEST_F(PairsCommand, EveryBroadPhaseGivesTheRowsOfTheContract) {
     const auto rows = read_rows(folder.path() / "out.csv", pair_columns);
     std::size_t next = 0;
     for (std::size_t frame = 0; frame < expected.size(); ++frame) {
-      for (const BroadPhaseEntry& entry : broad_phases()) {
+      for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
         if (!is_built(entry.info)) continue;
         ASSERT_LT(next, rows.size());
         const auto& row = rows[next++];

@@ -30,7 +30,7 @@ FakeRun varied_run() {
         block.bodies = bodies;
         block.threads = threads;
         block.scene_hash = scene + std::to_string(bodies);
-        block.contestants = {{"sweep-and-prune", 1e-6 * bodies / threads},
+        block.contestants = {{"sweep-one-axis", 1e-6 * bodies / threads},
                              {"naive", 1e-9 * bodies * bodies},
                              {"bullet-tree", 1.1e-6 * bodies}};
         run.blocks.push_back(block);

@@ -157,11 +157,11 @@ TEST_F(ConcaveQueryCommand, ContactsWithDepths) {
 }
 
 TEST_F(ConcaveQueryCommand, EveryMidPhaseAndAlgorithm) {
-  for (const MidPhaseEntry& mid : mid_phases()) {
+  for (const MidPhaseEntry& mid : registry::entries<MidPhaseEntry>()) {
     const Ran ran = run("--narrow all --task intersect --mid " + mid.info.name);
     ASSERT_EQ(ran.status, 0) << ran.text;
     for (const auto& row : rows({"id", "algorithm", "answer", "status"})) {
-      const ConcaveEntry* entry = find_concave_phase(row[1]);
+      const ConcaveEntry* entry = registry::find<ConcaveEntry>(row[1]);
       ASSERT_NE(entry, nullptr);
       if (entry->info.origin == Origin::peer) continue;
       if (entry->approximate) {

@@ -42,7 +42,7 @@ std::string box_and_ball(const std::string& id, double distance) {
 
 std::vector<std::string> built_names() {
   std::vector<std::string> names;
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (is_built(entry.info)) names.push_back(entry.info.name);
   }
   return names;
@@ -108,7 +108,7 @@ TEST_F(QueryCommand, PlainCasesByEveryAlgorithm) {
     std::set<std::string> answers;
     for (const auto& row : query(cases, "intersect", std::string(" --scalar ") + scalar)) {
       EXPECT_EQ(row[2], scalar);
-      const NarrowPhaseEntry& entry = *find_narrow_phase(row[1]);
+      const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>(row[1]);
       const bool ball = row[0] == "apart" || row[0] == "in";
       const bool taken =
           offers(entry, scalar == std::string("float") ? Precision::float32 : Precision::float64) &&
@@ -259,7 +259,7 @@ TEST_F(QueryCommand, BadRequests) {
   expect_refusal(in + narrow + task + " --out /dev/full", "No space left on device");
   folder.write("in.jsonl", "\n");
   expect_refusal(in + narrow + task + out, in + ":1: no case");
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (is_built(entry.info)) continue;
     expect_refusal(in + " --narrow " + entry.info.name + task + out,
                    "is not built, because " + entry.info.reason);

@@ -54,7 +54,7 @@ TEST(RaysCommand, AllAnswerWhetherThereIsAnyHit) {
   EXPECT_EQ(ran.status, 0) << ran.text;
   std::size_t asked = 0;
   for (const auto& row : read_rows(out, columns_of_rays)) {
-    const RayCastEntry& entry = *find_ray_cast(row[1]);
+    const RayCastEntry& entry = *registry::find<RayCastEntry>(row[1]);
     if (!offers(entry, RayTask::any) || !offers(entry, Precision::float32)) {
       EXPECT_EQ(row[8], "unsupported");
       continue;

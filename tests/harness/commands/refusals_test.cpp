@@ -93,7 +93,8 @@ TEST_F(Refusals, OutputsThatWouldBeOneFile) {
   expect_two_files(query + "--out " + path("out.csv"), "--pairs ", "--contacts ");
   expect_two_files("cast " + path("boxes.jsonl") + " --cast exact", "--out ",
                    "--save-certificates ");
-  expect_two_files("pairs " + path("pairs.csv") + " --broad sort-and-sweep", "--out ", "--moved ");
+  expect_two_files("pairs " + path("pairs.csv") + " --broad sweep-three-axes", "--out ",
+                   "--moved ");
   std::filesystem::create_symlink(path("one.csv"), path("link.csv"));
   refuse(query + "--out " + path("one.csv") + " --pairs " + path("link.csv"), "name the same file");
   const Ran ran = run_program(query + "--out /dev/null --pairs /dev/null --contacts /dev/null");
@@ -124,7 +125,7 @@ TEST_F(Refusals, OutputsThatWouldReplaceInputs) {
   expect_kept("query " + path("mesh.jsonl") + " --narrow fused --task distance", "mesh.jsonl");
   expect_kept("cast " + path("boxes.jsonl") + " --cast exact", "boxes.jsonl");
   expect_kept("ccd " + path("ccd.csv") + " --kind vertex-face --ccd exact", "ccd.csv");
-  expect_kept("pairs " + path("pairs.csv") + " --broad sort-and-sweep", "pairs.csv");
+  expect_kept("pairs " + path("pairs.csv") + " --broad sweep-three-axes", "pairs.csv");
   const std::string rays =
       "rays " + path("two.obj") + " --rays " + path("rays.csv") + " --cast exact --task closest";
   expect_kept(rays, "two.obj");
@@ -150,7 +151,7 @@ TEST_F(Refusals, MeshesWithoutFaces) {
 
 TEST_F(Refusals, PairsSayWhatTheyRound) {
   const std::string columns = "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n";
-  const std::string rest = " --broad sort-and-sweep --out " + path("out.csv");
+  const std::string rest = " --broad sweep-three-axes --out " + path("out.csv");
   const auto exact = folder.write("exact.csv", columns + "0,0,0,0,0.5,1,1,1\n");
   EXPECT_EQ(run_program("pairs " + exact.string() + rest).text.find("rounded"), std::string::npos);
   const auto other =

@@ -54,13 +54,13 @@ TEST_F(Report, MakesTheTablesOfARunThatHasRowsAlone) {
   block.bodies = 1000;
   block.threads = 1;
   block.scene_hash = "hash";
-  block.contestants = {{"sweep-and-prune", 1e-6}, {"naive", 1e-5}};
+  block.contestants = {{"sweep-one-axis", 1e-6}, {"naive", 1e-5}};
   run.blocks.push_back(block);
   run.write(results);
   const nlohmann::json whole = bundle(results);
   const nlohmann::json& files = whole["results"][0]["files"];
   EXPECT_TRUE(files.contains("raw.csv"));
-  EXPECT_THAT(std::string(files.value("times.csv", "")), HasSubstr("sweep-and-prune"));
+  EXPECT_THAT(std::string(files.value("times.csv", "")), HasSubstr("sweep-one-axis"));
   EXPECT_THAT(std::string(files.value("ratios.csv", "")), HasSubstr("naive"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results/times.csv"));
 }

@@ -46,7 +46,7 @@ TEST_F(StressCommand, OursHoldAndThePageSaysSo) {
   EXPECT_THAT(page, HasSubstr("# Where each algorithm breaks"));
   EXPECT_THAT(page, HasSubstr("--axes gap,aspect,parallel"));
   EXPECT_THAT(page, HasSubstr("| gap | 1e0 | 1e-16 | parts of the size |"));
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (entry.info.origin != Origin::ours) continue;
     EXPECT_TRUE(column("envelope.csv", "algorithm").contains(entry.info.name) ||
                 entry.info.name == "ellipsoid");
@@ -54,7 +54,8 @@ TEST_F(StressCommand, OursHoldAndThePageSaysSo) {
 }
 
 TEST_F(StressCommand, APeersWorstErrorsAreReplayed) {
-  if (find_narrow_phase("libccd-gjk")->make == nullptr) GTEST_SKIP() << "libccd is not built";
+  if (registry::find<NarrowPhaseEntry>("libccd-gjk")->make == nullptr)
+    GTEST_SKIP() << "libccd is not built";
   const Ran ran = stress("--narrow libccd-gjk --axes gap --cases 8");
   EXPECT_EQ(ran.status, 0) << ran.text;
   const std::string file = path("out/failures/libccd-gjk-double-intersect.jsonl");

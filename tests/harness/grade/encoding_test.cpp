@@ -132,7 +132,7 @@ TEST(Encoding, WhatTheEntriesSayIsWhatTheLibrariesGet) {
   base::Random random(11);
   int compared = 0;
   int moved = 0;  // pairs that the conversion changes more than the library errs
-  for (const NarrowPhaseEntry& entry : narrow_phases()) {
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (!is_built(entry.info) || !offers(entry, Task::distance)) continue;
     for (const Precision scalar : entry.scalars) {
       for (int i = 0; i < 20; ++i) {
@@ -156,7 +156,7 @@ TEST(Encoding, WhatTheEntriesSayIsWhatTheLibrariesGet) {
       }
     }
   }
-  if (find_narrow_phase("fcl-libccd")->make != nullptr) {
+  if (registry::find<NarrowPhaseEntry>("fcl-libccd")->make != nullptr) {
     EXPECT_GE(moved, 10);
   }
   EXPECT_GE(compared, 40);

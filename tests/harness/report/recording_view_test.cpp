@@ -22,7 +22,8 @@ using files::OrderedJson;
 RecordingRequest request_for(const std::filesystem::path& scene) {
   RecordingRequest request;
   request.scene = scene;
-  request.narrow = {find_narrow_phase("gjk"), find_narrow_phase("sat")};
+  request.narrow = {registry::find<NarrowPhaseEntry>("gjk"),
+                    registry::find<NarrowPhaseEntry>("sat")};
   return request;
 }
 

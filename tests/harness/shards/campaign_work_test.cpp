@@ -24,7 +24,7 @@ scenes = "scene.toml"
 seeds = [1, 2]
 counts = [20, 30]
 threads = 1
-broad = ["naive", "sweep-and-prune"]
+broad = ["naive", "sweep-one-axis"]
 narrow = ["gjk", "sat-faces"]
 scalars = "double"
 squares = 6
@@ -97,7 +97,7 @@ TEST_F(CampaignShards, HaveTheRowsOfOneRun) {
     EXPECT_EQ(merged[static_cast<std::size_t>(found[i].row)].block, found[i].block);
     EXPECT_TRUE(std::filesystem::exists(found[i].reproduction)) << found[i].reproduction;
   }
-  EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("sweep-and-prune"));
+  EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("sweep-one-axis"));
   EXPECT_THAT(result.merged.text, HasSubstr(out().string() + "/raw.csv"));
 }
 

@@ -43,7 +43,7 @@ stats::Results made_up() {
   stats::SampleSet& broad = results.sets.emplace_back();
   broad.key.scene = "uniform";
   for (const auto& [name, seconds] :
-       {std::pair{"naive", 3e-3}, std::pair{"sort-and-sweep", 1e-3}}) {
+       {std::pair{"naive", 3e-3}, std::pair{"sweep-three-axes", 1e-3}}) {
     stats::Contestant& contestant = broad.contestants.emplace_back();
     contestant.label = name;
     for (int square = 0; square < 8; ++square) {
@@ -80,7 +80,7 @@ TEST(Published, FasterHoldsFailsOrIsUndecided) {
   stats::Results results = made_up();
   stats::PublishedClaim claim;
   claim.kind = stats::PublishedClaim::Kind::faster;
-  claim.algorithm = "sort-and-sweep";
+  claim.algorithm = "sweep-three-axes";
   claim.than = "naive";
   EXPECT_EQ(only_row(claim, results).state, stats::Holds::pass);
   EXPECT_THAT(only_row(claim, results).here, HasSubstr("0.333"));

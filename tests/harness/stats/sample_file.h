@@ -129,7 +129,7 @@ struct FakeRun {
 inline FakeRun fake_run() {
   FakeRun run;
   FakeBlock broad;
-  broad.contestants = {{"sweep-and-prune", 1e-3}, {"uniform-grid", 2e-3}, {"naive", 5e-3}};
+  broad.contestants = {{"sweep-one-axis", 1e-3}, {"uniform-grid", 2e-3}, {"naive", 5e-3}};
   FakeBlock narrow;
   narrow.task = "distance";
   narrow.pair_kind = "box-sphere";

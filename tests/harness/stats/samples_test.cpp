@@ -36,7 +36,7 @@ TEST_F(Samples, SetsContestantsAndSquares) {
   const stats::SampleSet& broad = results.sets[0];
   EXPECT_EQ(broad.key.words(), "uniform, 1000 bodies, tight boxes, 2 threads, broad phases");
   ASSERT_EQ(broad.contestants.size(), 3u);
-  EXPECT_EQ(broad.baseline().label, "sweep-and-prune");
+  EXPECT_EQ(broad.baseline().label, "sweep-one-axis");
   EXPECT_EQ(broad.twin.samples.size(), 3u * 4 * 4);
   const stats::Contestant& first = broad.contestants[0];
   EXPECT_EQ(first.samples.size(), 3u * 4 * 4);

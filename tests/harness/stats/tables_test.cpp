@@ -51,7 +51,7 @@ TEST_F(TablesOf, TimesRatiosAndWinners) {
   EXPECT_NEAR(tables.ratios[2].ratio.median, 1, 0.01);
 
   ASSERT_EQ(tables.winners.size(), 2u);
-  EXPECT_EQ(tables.winners[0].winner, "sweep-and-prune");
+  EXPECT_EQ(tables.winners[0].winner, "sweep-one-axis");
   EXPECT_EQ(tables.winners[0].runner_up, "uniform-grid");
   EXPECT_NEAR(tables.winners[0].ratio.median, 2, 0.01);
   EXPECT_EQ(tables.winners[1].winner, "gjk double");
@@ -84,7 +84,7 @@ TEST_F(TablesOf, TheBestOfOursAgainstTheBestOfOthers) {
       block.threads = threads;
       block.scene_hash = std::to_string(bodies);
       const double ours = (bodies == 1000 ? 5e-6 : 1e-6 * bodies) / (threads == 2 ? 1.6 : 1);
-      block.contestants = {{"sweep-and-prune", 2 * ours},
+      block.contestants = {{"sweep-one-axis", 2 * ours},
                            {"uniform-grid", ours},
                            {"naive", 0.5 * ours, "00000000000000bb"},  // a wrong hash
                            {"limit", 0.25 * ours}};
@@ -200,7 +200,7 @@ TEST_F(TablesOf, ExponentsAndSpeedUps) {
       block.bodies = bodies;
       block.threads = threads;
       block.scene_hash = std::to_string(bodies);
-      block.contestants = {{"sweep-and-prune", 1e-6 * bodies / (threads == 2 ? 1.8 : 1)},
+      block.contestants = {{"sweep-one-axis", 1e-6 * bodies / (threads == 2 ? 1.8 : 1)},
                            {"naive", 1e-9 * bodies * bodies}};
       run.blocks.push_back(block);
     }
@@ -214,7 +214,7 @@ TEST_F(TablesOf, ExponentsAndSpeedUps) {
   EXPECT_THAT(tables.exponents[1].counts, ElementsAre(1000, 4000, 16000));
   ASSERT_EQ(tables.speed_ups.size(), 12u);
   for (const stats::SpeedUpRow& row : tables.speed_ups) {
-    const double expected = row.key.threads == 2 && row.label == "sweep-and-prune" ? 1.8 : 1;
+    const double expected = row.key.threads == 2 && row.label == "sweep-one-axis" ? 1.8 : 1;
     EXPECT_NEAR(row.speed_up.median, expected, 0.02) << row.label;
     EXPECT_EQ(row.base_threads, 1);
   }
@@ -235,7 +235,7 @@ TEST_F(TablesOf, FilesAreTheSameBytesTwiceAndSayWhatTheyAreOf) {
   const std::string text = folder_.read("one/tables.md");
   EXPECT_THAT(text, HasSubstr("- processor: Test CPU"));
   EXPECT_THAT(text, HasSubstr("### uniform, 1000 bodies, tight boxes, 2 threads, broad phases"));
-  EXPECT_THAT(text, HasSubstr("Ratios are to sweep-and-prune. The canary, sweep-and-prune against "
+  EXPECT_THAT(text, HasSubstr("Ratios are to sweep-one-axis. The canary, sweep-one-axis against "
                               "itself: "));
 }
 
@@ -297,7 +297,7 @@ TEST_F(TablesOf, ASuspectSetIsMarkedAndProvesNothing) {
   const auto folder = write(run, "suspect");
   stats::write_tables(tables, 1.2, folder);
   const std::string text = folder_.read("suspect/tables.md");
-  EXPECT_THAT(text, HasSubstr("broad phases (**suspect**) | sweep-and-prune"));
+  EXPECT_THAT(text, HasSubstr("broad phases (**suspect**) | sweep-one-axis"));
   EXPECT_THAT(text, HasSubstr("this table is **suspect**"));
   const auto undecided = [](const stats::TableCheck& check) {
     return std::ranges::count(check.cells, stats::Holds::undecided, &stats::CheckedCell::state);
@@ -416,7 +416,7 @@ TEST_F(TablesOf, ALibraryIsTheBaselineOfAReference) {
   FakeRun run = fake_run();
   run.blocks.resize(1);
   run.blocks[0].contestants = {
-      {"sweep-and-prune", 1e-3}, {"uniform-grid", 2e-3}, {"bullet-tree", 4e-3}};
+      {"sweep-one-axis", 1e-3}, {"uniform-grid", 2e-3}, {"bullet-tree", 4e-3}};
   const auto reference = write(run, "reference");
   const stats::Tables tables =
       stats::make_tables(stats::read_results(reference), stats::Noise::left_out);

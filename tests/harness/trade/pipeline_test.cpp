@@ -115,7 +115,7 @@ TEST(TradePipeline, AConcavePhaseTakesTheMeshItself) {
     trade::StandInLibrary library(world.frames, as_hull);
     trade::TradeGrid grid = grid_with("gjk");
     grid.narrow.clear();
-    grid.concave = {find_concave_phase("fused")};
+    grid.concave = {registry::find<ConcaveEntry>("fused")};
     for (const proxies::Form form : {proxies::Form::mesh, proxies::Form::as_given}) {
       grid.representations = {all_as(form)};
       const trade::TradePoint point = point_of(grid, world.frames, library, task);
@@ -242,7 +242,7 @@ TEST(TradePipeline, PartsAnswerAsTheWhole) {
 TEST(TradePipeline, WhatThrowsCostsItselfAlone) {
   World world(boxes_alone);
   const auto truth = world.truth();
-  NarrowPhaseEntry broken = *find_narrow_phase("gjk");
+  NarrowPhaseEntry broken = *registry::find<NarrowPhaseEntry>("gjk");
   broken.make = [](const NarrowPhaseSettings&) -> std::unique_ptr<NarrowPhase> {
     throw std::runtime_error("broken on purpose");
   };

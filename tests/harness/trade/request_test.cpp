@@ -41,7 +41,7 @@ seconds = 12.5
 [[trade.grid]]
 representations = ["as-given", {box = "sphere"}]
 boxes = ["tight", "fat-0.25"]
-broad = ["sweep-and-prune", "naive"]
+broad = ["sweep-one-axis", "naive"]
 narrow = ["closed-form+gjk", "mpr"]
 scalars = ["double", "float"]
 [[trade.grid]]

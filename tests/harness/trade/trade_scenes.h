@@ -72,9 +72,9 @@ inline trade::TradePoint point_of(const trade::TradeGrid& grid, const trade::Sce
 }
 
 inline trade::TradeGrid grid_with(const std::string& narrow,
-                                  const std::string& broad = "sweep-and-prune") {
+                                  const std::string& broad = "sweep-one-axis") {
   trade::TradeGrid grid;
-  grid.broad = {find_broad_phase(broad)};
+  grid.broad = {registry::find<BroadPhaseEntry>(broad)};
   grid.narrow = {trade::parse_chain(narrow)};
   return grid;
 }

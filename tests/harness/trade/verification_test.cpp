@@ -22,7 +22,7 @@ struct Small : SmallRequest {
   explicit Small(const std::string& text) : SmallRequest(text, 0.5) {}
   trade::Configuration named(const std::string& narrow) const {
     trade::Configuration configuration;
-    configuration.broad = find_broad_phase("sweep-and-prune");
+    configuration.broad = registry::find<BroadPhaseEntry>("sweep-one-axis");
     configuration.narrow = trade::parse_chain(narrow);
     return configuration;
   }

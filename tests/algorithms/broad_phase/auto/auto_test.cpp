@@ -33,7 +33,7 @@ class AutomaticChoice : public testing::TestWithParam<bool> {
     const auto structure = algorithm_->structure();
     if (structure.empty()) return "nothing to show";
     if (std::ranges::all_of(structure, [](const auto& each) { return is_flat(each.box); })) {
-      return "incremental-sweep-and-prune";
+      return "sweep-and-prune";
     }
     const bool is_list =
         std::ranges::all_of(structure, [](const StructureBox& box) { return box.level == 0; });
@@ -124,7 +124,7 @@ class AutomaticChoice : public testing::TestWithParam<bool> {
 
   Random random_{17};
   Executor executor_{1};
-  std::unique_ptr<BroadPhase> algorithm_ = find_broad_phase("auto")->make(executor_);
+  std::unique_ptr<BroadPhase> algorithm_ = registry::find<BroadPhaseEntry>("auto")->make(executor_);
   std::vector<Aabb> boxes_;
   Ids moved_;
   PairSink sink_, ended_;
@@ -164,15 +164,15 @@ TEST_P(AutomaticChoice, IsMadeLessAndLessOften) {
   EXPECT_LT(changes, 8);
 }
 
-// End points that pass few others want incremental sweep and prune, and those that pass many the
+// End points that pass few others want sweep and prune, and those that pass many the
 // dynamic BVH.
 TEST_P(AutomaticChoice, FollowsHowFarBodiesMove) {
   build(600, 0.15f);
   play(500, 0.02f);
-  EXPECT_EQ(chosen(), "incremental-sweep-and-prune");
+  EXPECT_EQ(chosen(), "sweep-and-prune");
   play(400, 0.02f, 0.3f);
   EXPECT_EQ(chosen(), "dynamic-bvh");
-  EXPECT_EQ(taken_["incremental-sweep-and-prune"], 1);
+  EXPECT_EQ(taken_["sweep-and-prune"], 1);
 }
 
 TEST_P(AutomaticChoice, DoesNotShowInTheAnswers) {
@@ -197,7 +197,7 @@ TEST_P(AutomaticChoice, DoesNotShowInTheAnswers) {
     replace(all, {});
     play(10, 1, 0.01f);
   }
-  EXPECT_GT(taken_["incremental-sweep-and-prune"], 1);
+  EXPECT_GT(taken_["sweep-and-prune"], 1);
   EXPECT_GT(taken_["dynamic-bvh"], 1);
   EXPECT_GT(taken_["packed-rtree"] + taken_["verlet-list"], 1);
   EXPECT_EQ(changes_ > 2'000, asks_changes_);

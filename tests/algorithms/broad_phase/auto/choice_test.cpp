@@ -42,7 +42,7 @@ class ChoiceByCounts : public testing::Test {
   }
 
   static constexpr Candidate bvh = Candidate::dynamic_bvh;
-  static constexpr Candidate sap = Candidate::incremental_sweep_and_prune;
+  static constexpr Candidate sap = Candidate::sweep_and_prune;
   Random random_{23};
   std::vector<Aabb> boxes_;
   std::vector<std::uint32_t> moved_;

@@ -22,7 +22,7 @@ PlacedInFrames placed_in_frames(std::size_t bodies, float reach, float teleporte
   const float side = std::cbrt(0.8f / static_cast<float>(bodies));
   std::vector<Aabb> boxes = uniform_boxes(random, bodies, side);
   Executor executor(1);
-  const auto algorithm = find_broad_phase("dynamic-bvh")->make(executor);
+  const auto algorithm = registry::find<BroadPhaseEntry>("dynamic-bvh")->make(executor);
   PairSink sink;
   algorithm->build(boxes);
   algorithm->find_pairs(sink);

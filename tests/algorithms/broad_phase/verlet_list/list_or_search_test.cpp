@@ -30,7 +30,8 @@ class VerletListOrSearch : public testing::Test {
   std::vector<Aabb> boxes_ = uniform_boxes(random_, count, 0.02f);
   std::vector<std::uint32_t> all_ = std::vector<std::uint32_t>(count);
   Executor executor_{1};
-  std::unique_ptr<BroadPhase> phase_ = find_broad_phase("verlet-list")->make(executor_);
+  std::unique_ptr<BroadPhase> phase_ =
+      registry::find<BroadPhaseEntry>("verlet-list")->make(executor_);
   PairSink sink_;
 };
 

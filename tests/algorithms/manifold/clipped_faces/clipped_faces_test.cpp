@@ -43,7 +43,7 @@ Shape hull_of_box(double x, double y, double z) {
 
 // Of a pair with kind_a <= kind_b, with checks that hold for every answer.
 Manifold manifold_of(const Body& a, const Body& b, Precision scalar = Precision::float64) {
-  const ManifoldEntry* const entry = find_contact_manifold("clipped-faces");
+  const ManifoldEntry* const entry = registry::find<ManifoldEntry>("clipped-faces");
   EXPECT_TRUE(offers(*entry, a.shape.kind, b.shape.kind));
   const std::array shapes = {a.shape, b.shape};
   const std::array poses = {a.pose, b.pose};
@@ -311,8 +311,8 @@ TEST(ClippedFaces, FeaturesStayWhileTheBodiesSlide) {
 }
 
 TEST(ClippedFaces, HalfSpacesHaveNone) {
-  EXPECT_FALSE(
-      offers(*find_contact_manifold("clipped-faces"), ShapeKind::halfspace, ShapeKind::halfspace));
+  EXPECT_FALSE(offers(*registry::find<ManifoldEntry>("clipped-faces"), ShapeKind::halfspace,
+                      ShapeKind::halfspace));
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ Shape capsule(double radius, double half_length) {
 
 Outcome closed_form(Precision scalar, Task task, const Shape& a, const Pose& pose_a, const Shape& b,
                     const Pose& pose_b) {
-  return ask(*find_narrow_phase("closed-form"), settings_of(scalar), task, a, pose_a, b, pose_b);
+  return ask(*registry::find<NarrowPhaseEntry>("closed-form"), settings_of(scalar), task, a, pose_a,
+             b, pose_b);
 }
 
 Mat3d turn(double angle, const Vec3d& axis) {
@@ -104,7 +105,7 @@ TEST(ClosedForm, SphereAndBox) {
 }
 
 TEST(ClosedForm, SaysExactlyWhatItTakes) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("closed-form");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("closed-form");
   const auto takes = [&](ShapeKind a, ShapeKind b, Task task) { return offers(entry, a, b, task); };
   EXPECT_TRUE(takes(ShapeKind::box, ShapeKind::box, Task::penetration));
   EXPECT_FALSE(takes(ShapeKind::box, ShapeKind::box, Task::distance));

@@ -44,8 +44,8 @@ Pairs aligned_pairs(Random& random, Kinds kinds, int count) {
 double miss(const Outcome& o) { return (o.witness_b - o.witness_a - o.distance * o.normal).norm(); }
 
 TEST(SmoothBounds, MeetThoseOfGjk) {
-  const NarrowPhaseEntry& smooth = *find_narrow_phase("smooth");
-  const NarrowPhaseEntry& gjk = *find_narrow_phase("gjk");
+  const NarrowPhaseEntry& smooth = *registry::find<NarrowPhaseEntry>("smooth");
+  const NarrowPhaseEntry& gjk = *registry::find<NarrowPhaseEntry>("gjk");
   constexpr std::array kinds{ShapeKind::sphere, ShapeKind::capsule, ShapeKind::cylinder,
                              ShapeKind::cone, ShapeKind::ellipsoid};
   Random random(41);

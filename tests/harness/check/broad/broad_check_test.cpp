@@ -96,7 +96,7 @@ TEST(BoxScenes, HaveFramesThatChangeAndPairsOfEachKind) {
 
 TEST(BroadCheck, EveryOneOfOurs) {
   const std::vector<check::BoxScene> scenes = check::box_scenes(3);
-  for (const BroadPhaseEntry& entry : broad_phases()) {
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin != Origin::ours) continue;
     for (const check::BroadCheck& one : check(entry, scenes)) {
       EXPECT_TRUE(one.good()) << entry.info.name << ' ' << one.scene->name << ": " << one.faults();

@@ -62,7 +62,7 @@ struct PlantedSceneRays final : SceneRayCast {
 
 // Tells another body, or another length, than the first.
 struct AstraySceneRays final : SceneRayCast {
-  std::unique_ptr<SceneRayCast> exact = find_scene_ray_cast("exact")->make();
+  std::unique_ptr<SceneRayCast> exact = registry::find<SceneRayCastEntry>("exact")->make();
   std::uint32_t bodies = 0;
 
   void bind(std::span<const SceneBody> all) override {

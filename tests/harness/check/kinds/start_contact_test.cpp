@@ -57,9 +57,9 @@ TEST(StartContact, OursTellWhatBodiesDoAfterATouch) {
   for (const char* name : {"gjk-ray-cast", "gjk-ray-cast-lanes", "mpr-ray-cast", "exact"}) {
     for (const kinds::CaseForm form :
          {kinds::CaseForm::as_drawn, kinds::CaseForm::swapped, kinds::CaseForm::scaled}) {
-      const FamilyCount count =
-          count_of("casts-from-touch", cast_of(*find_cast(name), StartContact::approach), form,
-                   drawn(160, 40));
+      const FamilyCount count = count_of(
+          "casts-from-touch", cast_of(*registry::find<CastEntry>(name), StartContact::approach),
+          form, drawn(160, 40));
       EXPECT_GT(count.cases, drawn(16, 4)) << name;
       EXPECT_EQ(count.right, count.cases) << name << " " << to_string(form);
     }
@@ -70,7 +70,8 @@ TEST(TurningForms, AreAskedBackwardAndInHalves) {
   for (const kinds::CaseForm form : {kinds::CaseForm::reversed, kinds::CaseForm::split}) {
     for (const char* name : {"turns-half-a-radian", "turns-tangential", "turns-from-touch"}) {
       const int cases = drawn(40, 20);
-      const auto rigid = cast_of(*find_cast("rigid-advancement"), StartContact::counts);
+      const auto rigid =
+          cast_of(*registry::find<CastEntry>("rigid-advancement"), StartContact::counts);
       const FamilyCount count = count_of(name, rigid, form, cases);
       EXPECT_EQ(count.cases, cases / 5) << name;
       EXPECT_EQ(count.silent(), 0) << name << " " << to_string(form) << " " << count.first_wrong;

@@ -27,7 +27,7 @@ files::Case box_on_box() {
   return c;
 }
 
-const ManifoldEntry& ours() { return *find_contact_manifold("clipped-faces"); }
+const ManifoldEntry& ours() { return *registry::find<ManifoldEntry>("clipped-faces"); }
 
 TEST(ManifoldGrade, OursOnEveryFamily) {
   for (const Precision scalar : {Precision::float64, Precision::float32}) {

@@ -44,16 +44,22 @@ velocity = [0, 0, -2]
 std::vector<measure::StepAnswer> cast(const measure::MotionInput& input, const char* name,
                                       int threads = 1) {
   Executor executor(threads);
-  measure::ContinuousSteps steps(input, {find_broad_phase("linear-bvh"), {find_cast(name)}, {}, 0},
-                                 executor);
+  measure::ContinuousSteps steps(
+      input,
+      {registry::find<BroadPhaseEntry>("linear-bvh"), {registry::find<CastEntry>(name)}, {}, 0},
+      executor);
   steps.play();
   return steps.answers();
 }
 
 std::vector<measure::StepAnswer> look(const measure::MotionInput& input, int substeps) {
   Executor executor(1);
-  measure::DiscreteSteps steps(
-      input, {find_broad_phase("linear-bvh"), {find_narrow_phase("gjk")}, {}, substeps}, executor);
+  measure::DiscreteSteps steps(input,
+                               {registry::find<BroadPhaseEntry>("linear-bvh"),
+                                {registry::find<NarrowPhaseEntry>("gjk")},
+                                {},
+                                substeps},
+                               executor);
   steps.play();
   const auto once = steps.answers();
   steps.play();

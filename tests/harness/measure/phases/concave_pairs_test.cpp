@@ -16,10 +16,10 @@ constexpr std::array doubles = {Precision::float64};
 std::vector<NarrowChoice> ours() {
   std::vector<const ConcaveEntry*> entries;
   std::vector<const MidPhaseEntry*> mids;
-  for (const ConcaveEntry& entry : concave_phases()) {
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
     if (entry.info.origin == Origin::ours) entries.push_back(&entry);
   }
-  for (const MidPhaseEntry& mid : mid_phases()) mids.push_back(&mid);
+  for (const MidPhaseEntry& mid : registry::entries<MidPhaseEntry>()) mids.push_back(&mid);
   return concave_choices(entries, mids, doubles);
 }
 
@@ -66,7 +66,7 @@ TEST(ConcavePairs, ATorusCollidesAsATorus) {
   const std::vector<NarrowSet> sets = sets_of(input, tasks);
   ASSERT_EQ(sets.size(), 1u);
   EXPECT_EQ(sets[0].kind_name(), "hull-hull");
-  const NarrowChoice gjk{.entry = find_narrow_phase("gjk"), .settings = {}};
+  const NarrowChoice gjk{.entry = registry::find<NarrowPhaseEntry>("gjk"), .settings = {}};
   EXPECT_EQ(sample(gjk, input, sets, 0, 1).contacts, 1);
 }
 

@@ -21,7 +21,7 @@ files::Case box_and_ball(double x) {
 }
 
 TEST(SolveCase, AnswersInTheOrderOfTheCase) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("exact");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("exact");
   for (const double x : {4.0, 1.5}) {
     const Outcome outcome = process::solve_case(entry, {}, box_and_ball(x), Task::signed_distance);
     EXPECT_EQ(outcome.distance, x - 2);
@@ -32,7 +32,7 @@ TEST(SolveCase, AnswersInTheOrderOfTheCase) {
 }
 
 TEST(SolveCase, GivesWhatIsAsked) {
-  const NarrowPhaseEntry& entry = *find_narrow_phase("exact");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("exact");
   const Outcome apart = process::solve_case(entry, {}, box_and_ball(4), Task::penetration);
   EXPECT_EQ(apart.answer, Answer::separated);
   EXPECT_TRUE(std::isnan(apart.distance) && apart.normal.hasNaN());

@@ -1,4 +1,4 @@
-// Part of incremental-sweep-and-prune: for each axis, the bodies whose end points on it have moved
+// Part of sweep-and-prune: for each axis, the bodies whose end points on it have moved
 // between two frames. A car on a street moves along one axis of three.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Part of incremental-sweep-and-prune: sorting end points, and merging bodies in and out.
-#include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_list.h"
+// Part of sweep-and-prune: sorting end points, and merging bodies in and out.
+#include "algorithms/broad_phase/sweep_and_prune/endpoint_list.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-// Incremental sweep and prune: keep the boxes' end points sorted on three axes from frame to frame,
-// and a set of pairs that changes only when a minimum and a maximum pass each other.
+// Sweep and prune: keep the boxes' end points sorted on three axes from frame to frame, and a set of
+// pairs that changes only when a minimum and a maximum pass each other.
 // Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992;
 //          Cohen, Lin, Manocha, Ponamgi, "I-COLLIDE", I3D 1995.
 // Steps:   1. Radix-sort the end points on three axes, and sweep the axis with the fewest overlaps
@@ -27,8 +27,8 @@
 #include <array>
 
 #include "algorithms/broad_phase.h"
-#include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_list.h"
-#include "algorithms/broad_phase/incremental_sweep_and_prune/pair_set.h"
+#include "algorithms/broad_phase/sweep_and_prune/endpoint_list.h"
+#include "algorithms/broad_phase/sweep_and_prune/pair_set.h"
 #include "algorithms/core/memory_usage.h"
 #include "algorithms/kernels/boxes/aabb_scan.h"
 #include "algorithms/kernels/boxes/aabb_stack.h"
@@ -37,9 +37,9 @@
 namespace touchstone {
 namespace {
 
-class IncrementalSweepAndPrune final : public BroadPhase {
+class SweepAndPrune final : public BroadPhase {
  public:
-  explicit IncrementalSweepAndPrune(Executor& executor)
+  explicit SweepAndPrune(Executor& executor)
       : executor_(executor), lists_(static_cast<std::size_t>(executor.width())) {}
 
   void build(std::span<const Aabb> boxes) override {
@@ -121,7 +121,7 @@ class IncrementalSweepAndPrune final : public BroadPhase {
   std::size_t skipped_ = 0, wait_ = 0;
 };
 
-void IncrementalSweepAndPrune::rebuild(std::span<const Aabb> boxes) {
+void SweepAndPrune::rebuild(std::span<const Aabb> boxes) {
   take_boxes(boxes);
   are_all_sorted_ = true;
   for (EndpointList& axis : axes_) axis.sort(executor_, boxes, ids_, radix_sort_);
@@ -133,13 +133,13 @@ void IncrementalSweepAndPrune::rebuild(std::span<const Aabb> boxes) {
 }
 
 // Sorts one axis only; the others can wait while the next frames are swept too.
-void IncrementalSweepAndPrune::resort_axis(std::span<const Aabb> boxes) {
+void SweepAndPrune::resort_axis(std::span<const Aabb> boxes) {
   take_boxes(boxes);
   are_all_sorted_ = false;
   axes_[axis_].sort(executor_, boxes, ids_, radix_sort_);
 }
 
-void IncrementalSweepAndPrune::take_boxes(std::span<const Aabb> boxes) {
+void SweepAndPrune::take_boxes(std::span<const Aabb> boxes) {
   if (set_.is_told()) told_.set(set_.told());
   before_.assign(boxes.begin(), boxes.end());
   mark_.assign(boxes.size(), 0);  // clears marks left by an abandoned update
@@ -148,7 +148,7 @@ void IncrementalSweepAndPrune::take_boxes(std::span<const Aabb> boxes) {
 }
 
 // The axis on which the fewest boxes overlap.
-std::size_t IncrementalSweepAndPrune::best_axis() const {
+std::size_t SweepAndPrune::best_axis() const {
   std::size_t best = 0;
   std::int64_t fewest = axes_[0].count_overlaps().candidates;
   for (std::size_t axis = 1; axis < 3; ++axis) {
@@ -159,7 +159,7 @@ std::size_t IncrementalSweepAndPrune::best_axis() const {
   return best;
 }
 
-Status IncrementalSweepAndPrune::find_pairs(PairSink& sink) {
+Status SweepAndPrune::find_pairs(PairSink& sink) {
   if (swept_) {
     sweep(sink);
     if (are_all_sorted_) keep(sink);
@@ -177,7 +177,7 @@ Status IncrementalSweepAndPrune::find_pairs(PairSink& sink) {
   return Status::ok;
 }
 
-Status IncrementalSweepAndPrune::find_changes(PairSink& began, PairSink& ended) {
+Status SweepAndPrune::find_changes(PairSink& began, PairSink& ended) {
   if (set_.is_told()) {
     set_.write_changes(began, ended);
     return Status::ok;
@@ -192,7 +192,7 @@ Status IncrementalSweepAndPrune::find_changes(PairSink& began, PairSink& ended) 
   return Status::ok;
 }
 
-void IncrementalSweepAndPrune::sweep(PairSink& sink) {
+void SweepAndPrune::sweep(PairSink& sink) {
   std::size_t row = 0;
   for (const Endpoint point : axes_[axis_].points()) {
     if (!is_max(point)) ids_[row++] = body_of(point);
@@ -205,7 +205,7 @@ void IncrementalSweepAndPrune::sweep(PairSink& sink) {
                  });
 }
 
-void IncrementalSweepAndPrune::keep(const PairSink& sink) {
+void SweepAndPrune::keep(const PairSink& sink) {
   std::span<IndexPair> pairs = set_.refill(sink.size());
   for (const PairBuffer& chunk : sink.chunks()) {
     std::ranges::copy(chunk.pairs(), pairs.begin());
@@ -215,7 +215,7 @@ void IncrementalSweepAndPrune::keep(const PairSink& sink) {
 }
 
 // Updates the end points and the set. Returns false if that takes too long; both are then invalid.
-bool IncrementalSweepAndPrune::repair(const FrameChange& change) {
+bool SweepAndPrune::repair(const FrameChange& change) {
   if (skipped_ < wait_ && change.moved.size() > before_.size() / 16) {
     ++skipped_;
     return false;
@@ -251,7 +251,7 @@ bool IncrementalSweepAndPrune::repair(const FrameChange& change) {
 }
 
 // Splits the changed bodies into jumpers, which come, go or move far, and walkers.
-void IncrementalSweepAndPrune::classify(const FrameChange& change) {
+void SweepAndPrune::classify(const FrameChange& change) {
   jumpers_.assign(change.removed.begin(), change.removed.end());
   jumpers_.insert(jumpers_.end(), change.inserted.begin(), change.inserted.end());
   walkers_.clear();
@@ -267,7 +267,7 @@ void IncrementalSweepAndPrune::classify(const FrameChange& change) {
 }
 
 // True if the body's minima pass many others.
-bool IncrementalSweepAndPrune::is_far(const Aabb& now, std::uint32_t id) const {
+bool SweepAndPrune::is_far(const Aabb& now, std::uint32_t id) const {
   const Aabb& then = before_[id];
   if (overlap(then, now)) return false;
   std::size_t passed = 0;
@@ -277,14 +277,14 @@ bool IncrementalSweepAndPrune::is_far(const Aabb& now, std::uint32_t id) const {
   return passed > 64 + axes_[0].points().size() / 16;
 }
 
-void IncrementalSweepAndPrune::take_jumpers_out() {
+void SweepAndPrune::take_jumpers_out() {
   for (const std::uint32_t id : jumpers_) mark_[id] = 1;
   set_.erase_if([&](IndexPair pair) { return mark_[pair.a] + mark_[pair.b] > 0; });
   const auto task = [&](std::size_t axis, int) { axes_[axis].take_out(mark_); };
   executor_.run(3, std::cref(task));
 }
 
-void IncrementalSweepAndPrune::put_jumpers_in(std::span<const Aabb> boxes) {
+void SweepAndPrune::put_jumpers_in(std::span<const Aabb> boxes) {
   for (const std::uint32_t id : jumpers_) before_[id] = boxes[id];
   const auto task = [&](std::size_t axis, int) { axes_[axis].put_in(boxes, jumpers_); };
   executor_.run(3, std::cref(task));
@@ -321,13 +321,11 @@ void IncrementalSweepAndPrune::put_jumpers_in(std::span<const Aabb> boxes) {
 
 namespace touchstone::entries {
 
-std::vector<BroadPhaseEntry> broad_phase_incremental_sweep_and_prune() {
-  return {{.info = {.name = "incremental-sweep-and-prune",
+std::vector<BroadPhaseEntry> broad_phase_sweep_and_prune() {
+  return {{.info = {.name = "sweep-and-prune",
                     .citation = "Baraff, thesis, Cornell 1992; Cohen, Lin, Manocha, Ponamgi, "
                                 "\"I-COLLIDE\", I3D 1995; three axes, kept pairs"},
-           .make = [](Executor& executor) {
-             return std::make_unique<IncrementalSweepAndPrune>(executor);
-           }}};
+           .make = [](Executor& executor) { return std::make_unique<SweepAndPrune>(executor); }}};
 }
 
 }  // namespace touchstone::entries

@@ -1,5 +1,5 @@
-// Sort and sweep: sort the ends of the boxes on each of the three axes, list the pairs that overlap
-// on each axis, and intersect the three lists.
+// Sweep on three axes: sort the ends of the boxes on each axis, list the pairs that overlap on it, and
+// intersect the three lists.
 // Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992, and
 //          Cohen, Lin, Manocha, Ponamgi, "I-COLLIDE", I3D 1995.
 // Steps:   1. On each axis, sort the 2n box ends: radix sort, or insertion sort from the last
@@ -33,9 +33,9 @@
 namespace touchstone {
 namespace {
 
-class SortAndSweep final : public BroadPhase {
+class SweepThreeAxes final : public BroadPhase {
  public:
-  explicit SortAndSweep(Executor& executor) : executor_(executor) {}
+  explicit SweepThreeAxes(Executor& executor) : executor_(executor) {}
 
   void build(std::span<const Aabb> boxes) override {
     list_bodies(executor_, boxes, ids_);
@@ -184,11 +184,11 @@ class SortAndSweep final : public BroadPhase {
 
 namespace touchstone::entries {
 
-std::vector<BroadPhaseEntry> broad_phase_sort_and_sweep() {
-  return {{.info = {.name = "sort-and-sweep",
+std::vector<BroadPhaseEntry> broad_phase_sweep_three_axes() {
+  return {{.info = {.name = "sweep-three-axes",
                     .citation = "Baraff, thesis, Cornell 1992; Cohen, Lin, Manocha, Ponamgi, "
                                 "\"I-COLLIDE\", I3D 1995; three axes, lists intersected"},
-           .make = [](Executor& executor) { return std::make_unique<SortAndSweep>(executor); }}};
+           .make = [](Executor& executor) { return std::make_unique<SweepThreeAxes>(executor); }}};
 }
 
 }  // namespace touchstone::entries

@@ -1,4 +1,4 @@
-// Part of incremental-sweep-and-prune: the end points of boxes on one of three axes, kept sorted
+// Part of sweep-and-prune: the end points of boxes on one of three axes, kept sorted
 // from frame to frame, and the pairs that begin or cease to overlap because end points pass each
 // other.
 // Paper:   Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992.
@@ -14,8 +14,8 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint.h"
-#include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_motion.h"
+#include "algorithms/broad_phase/sweep_and_prune/endpoint.h"
+#include "algorithms/broad_phase/sweep_and_prune/endpoint_motion.h"
 #include "algorithms/core/aabb.h"
 #include "algorithms/core/executor/executor.h"
 #include "algorithms/core/pair_sink.h"

@@ -1,4 +1,4 @@
-// Sweep and prune: sort the boxes on one axis, sweep, test the other two.
+// Sweep on one axis: sort the boxes on it, sweep, test the other two.
 // Paper:   Cohen, Lin, Manocha, Ponamgi, "I-COLLIDE: An Interactive and Exact Collision Detection
 //          System for Large-Scale Environments", I3D 1995.
 // Steps:   1. Choose the axis along which the boxes' centres vary most. In an update keep the last
@@ -28,9 +28,9 @@
 namespace touchstone {
 namespace {
 
-class SweepAndPrune final : public BroadPhase {
+class SweepOneAxis final : public BroadPhase {
  public:
-  explicit SweepAndPrune(Executor& executor) : executor_(executor) {}
+  explicit SweepOneAxis(Executor& executor) : executor_(executor) {}
 
   void build(std::span<const Aabb> boxes) override {
     list_bodies(executor_, boxes, ids_);
@@ -153,10 +153,10 @@ class SweepAndPrune final : public BroadPhase {
 
 namespace touchstone::entries {
 
-std::vector<BroadPhaseEntry> broad_phase_sweep_and_prune() {
-  return {{.info = {.name = "sweep-and-prune",
+std::vector<BroadPhaseEntry> broad_phase_sweep_one_axis() {
+  return {{.info = {.name = "sweep-one-axis",
                     .citation = "Cohen, Lin, Manocha, Ponamgi, \"I-COLLIDE\", I3D 1995; one axis"},
-           .make = [](Executor& executor) { return std::make_unique<SweepAndPrune>(executor); }}};
+           .make = [](Executor& executor) { return std::make_unique<SweepOneAxis>(executor); }}};
 }
 
 }  // namespace touchstone::entries

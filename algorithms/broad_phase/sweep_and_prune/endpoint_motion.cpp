@@ -1,5 +1,5 @@
-// Part of incremental-sweep-and-prune: lists for each axis the bodies whose extents on it changed.
-#include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_motion.h"
+// Part of sweep-and-prune: lists for each axis the bodies whose extents on it changed.
+#include "algorithms/broad_phase/sweep_and_prune/endpoint_motion.h"
 
 #include "algorithms/core/memory_usage.h"
 

@@ -1,4 +1,4 @@
-// Part of incremental-sweep-and-prune: a set of pairs that persists from frame to frame: a dense
+// Part of sweep-and-prune: a set of pairs that persists from frame to frame: a dense
 // array, which is the output, and an open-addressing hash table of places in it. It notes what comes
 // and goes.
 // Paper: Knuth, "The Art of Computer Programming", vol. 3, section 6.4, Algorithms L and R (linear

@@ -1,8 +1,8 @@
-// Part of incremental-sweep-and-prune: the insertion-sort update of an EndpointList. See
+// Part of sweep-and-prune: the insertion-sort update of an EndpointList. See
 // endpoint_list.h.
 #include <algorithm>
 
-#include "algorithms/broad_phase/incremental_sweep_and_prune/endpoint_list.h"
+#include "algorithms/broad_phase/sweep_and_prune/endpoint_list.h"
 #include "algorithms/kernels/simd/vector.h"
 
 namespace touchstone {

@@ -1,4 +1,4 @@
-// Part of incremental-sweep-and-prune: the end points of boxes on an axis, as integers that sort
+// Part of sweep-and-prune: the end points of boxes on an axis, as integers that sort
 // like them.
 // Paper: Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", thesis, Cornell 1992.
 #pragma once
