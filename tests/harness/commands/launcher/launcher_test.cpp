@@ -226,7 +226,7 @@ TEST_F(Launcher, WaitsForBuildsAloneAndSaysForWhose) {
     flock 8
     echo 'process 7 since 10:00:00, ./touchstone check' >tree/build/release/.lock
     LOG=$PWD PATH=$PWD/bin:$PATH tree/touchstone list >out 2>&1 8>&- &
-    until grep -q stops out; do sleep 0.05; done
+    until [[ -s out ]]; do sleep 0.05; done
     exec 8>&-
     wait $!)");
   EXPECT_EQ(run_shell("cd " + path("") + " && ./hold").status, 0);
