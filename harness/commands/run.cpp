@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <string_view>
 
 #include "harness/base/error.h"
 #include "harness/campaign/plan.h"
@@ -132,10 +133,13 @@ int run_other_file(const RunOptions& options) {
   hand_over();
 }
 
-// Names the tables itself, because this executable lacks what reads them.
+// Takes the keys from the table of commands, because this executable lacks what reads them.
 bool is_other_file(const std::string& file) {
-  return std::ranges::any_of(std::array{"trade", "check", "stress", "soak", "cells"},
-                             [&](const char* key) { return files::has_key(file, key); });
+  constexpr auto keys = std::to_array<std::string_view>({
+#define TOUCHSTONE_MORE_KEY(name, key) key,
+#include "harness/commands/commands.inl"
+  });
+  return std::ranges::any_of(keys, [&](std::string_view key) { return files::has_key(file, key); });
 }
 
 // Writes tables.md and prints the summary, or all tables on request.
