@@ -20,6 +20,7 @@
 #include "algorithms/core/isa.h"
 #include "harness/base/error.h"
 #include "harness/commands/commands.h"
+#include "harness/process/standard_output.h"
 
 namespace touchstone::commands {
 namespace {
@@ -109,13 +110,14 @@ void hand_over() {
 }
 
 int run_program(int argc, char** argv, std::initializer_list<OwnCommand> own) {
+  process::escape_output();
   try {
-    return run_command(std::vector<std::string>(argv + 1, argv + argc), own);
-  } catch (const base::InputError& error) {
-    std::fprintf(stderr, "touchstone: %s\n", error.what());  // fmt would throw if the write fails
+    const int status = run_command(std::vector<std::string>(argv + 1, argv + argc), own);
+    return process::finish_output() ? status : exit_bad_request;
   } catch (const std::bad_alloc&) {
     std::fputs("touchstone: out of memory\n", stderr);
   } catch (const std::exception& error) {
+    // fmt would throw if the write fails.
     std::fprintf(stderr, "touchstone: %s\n", error.what());
   }
   return exit_bad_request;
