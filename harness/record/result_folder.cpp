@@ -203,8 +203,14 @@ void ResultFolder::compare_identity() {
   }
 }
 
+void ResultFolder::begin_more() {
+  is_finished_ = false;
+  write_facts(false, {});
+}
+
 void ResultFolder::take_up() {
   compare_identity();
+  is_finished_ = was_finished_;
   cut_to_progress();
   open();
 }
@@ -313,6 +319,7 @@ void ResultFolder::write_progress() {
 void ResultFolder::finish(const Facts& more) {
   for (const auto& writer : writers_) writer->close();
   write_facts(true, more);
+  is_finished_ = true;
 }
 
 void ResultFolder::write_facts(bool finished, const Facts& more) const {

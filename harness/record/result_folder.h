@@ -101,7 +101,11 @@ class ResultFolder {
   // number. Throws InputError if its columns differ, or if it does not have the size that its
   // progress.csv says.
   std::int64_t append(std::size_t file, const std::filesystem::path& other);
-  files::CsvWriter& writer(std::size_t file) { return *writers_[file]; }
+  // Work that was finished is not finished any more.
+  files::CsvWriter& writer(std::size_t file) {
+    if (is_finished_) begin_more();
+    return *writers_[file];
+  }
   // Ends `units` units: everything written since the last call is permanent from now on.
   void commit(std::int64_t units = 1);
   // Writes machine.csv with `finished` and these further facts.
@@ -116,6 +120,7 @@ class ResultFolder {
   // Throws InputError if one of these files is not of this program, or a symbolic link.
   void expect_own(const std::vector<std::filesystem::path>& names) const;
   void take_up();
+  void begin_more();
   void compare_identity();
   void cut_to_progress();
   void open();
@@ -124,7 +129,7 @@ class ResultFolder {
 
   ResultFolderPlan plan_;
   int lock_ = -1;  // descriptor of the folder
-  bool was_finished_ = false;
+  bool was_finished_ = false, is_finished_ = false;  // at the start, and by machine.csv now
   std::string begun_;  // when the work was begun, not when it was resumed
   std::int64_t units_ = 0;
   std::vector<RowsOfFile> rows_;                            // what progress.csv says of each file
