@@ -48,6 +48,7 @@ int run_motion_trade(const TradeOptions& options) {
         "--motion asks which pairs touch in a step, and its error is the share of hits missed; "
         "expected neither --task nor --error with it");
   }
+  if (!options.out.empty()) record::expect_writable(options.out);
   const cells::MotionTrade trade = cells::plan_motion_trade(
       cells::default_motion_trade(options.scene, asked.overrides, asked.threads), asked.seconds);
   const std::filesystem::path folder = trade_folder(options.out, trade.cells.name + "-motion");
