@@ -21,6 +21,7 @@
 #include "algorithms/core/isa.h"
 #include "harness/base/error.h"
 #include "harness/commands/commands.h"
+#include "harness/process/standard_output.h"
 #include "harness/record/machine.h"
 
 namespace touchstone::commands {
@@ -135,13 +136,14 @@ void hand_over() {
 int run_program(int argc, char** argv, const record::Build& build,
                 std::initializer_list<OwnCommand> own) {
   record::set_build(build);
+  process::escape_output();
   try {
-    return run_command(std::vector<std::string>(argv + 1, argv + argc), own);
-  } catch (const base::InputError& error) {
-    std::fprintf(stderr, "touchstone: %s\n", error.what());  // fmt would throw if the write fails
+    const int status = run_command(std::vector<std::string>(argv + 1, argv + argc), own);
+    return process::finish_output() ? status : exit_bad_request;
   } catch (const std::bad_alloc&) {
     std::fputs("touchstone: out of memory\n", stderr);
   } catch (const std::exception& error) {
+    // fmt would throw if the write fails.
     std::fprintf(stderr, "touchstone: %s\n", error.what());
   }
   return exit_bad_request;

@@ -180,12 +180,7 @@ int run(const RunOptions& options) {
   const campaign::RunResult result = campaign::run_campaign(campaign, folder, start_of(options));
   report(campaign, result, folder, options);
   if (options.with_page) make_page(folder);
-  if (result.interrupted) {
-    fmt::print(stderr,
-               "touchstone: interrupted; what was measured until then is kept, and --resume goes "
-               "on with it\n");
-    return exit_bad_request;
-  }
+  if (result.interrupted) return end_interrupted();
   return result.findings.ours_are_wrong() ? exit_measured_wrong : exit_done;
 }
 

@@ -6,26 +6,28 @@
 #include <algorithm>
 
 #include "harness/check/kinds/case_block.h"
+#include "harness/grade/failures/case_files.h"
 
 namespace touchstone::check {
 
 std::vector<FamilyFailure> write_family_failures(const CheckRequest& request,
                                                  const FamilyCounts& counts) {
   std::vector<FamilyFailure> failures;
-  const std::filesystem::path folder = request.out / "failures";
+  record::OwnFiles own(request.out);
   for (const auto& [key, count] : counts) {
     if (count.first_wrong < 0) continue;
     const Contestant& contestant = request.contestants[key.contestant];
     if (!contestant.is_promised() && key.form != CaseForm::as_drawn) continue;
-    std::filesystem::create_directories(folder);
     const CaseFamily& family = *request.families[key.family];
     std::string name =
         fmt::format("{}-{}-{}", to_string(family.kind), contestant.name(), family.name);
     if (key.form != CaseForm::as_drawn) name += "-" + std::string(to_string(key.form));
     std::ranges::replace(name, ' ', '-');
+    const std::filesystem::path stem = own.free_stem(grade::failures_folder, name);
     const auto first = static_cast<std::uint64_t>(count.first_wrong);
     const auto block = make_case_block(family, {request.seed, first, 1});
-    failures.push_back({count, block->write(contestant, 0, folder / name)});
+    failures.push_back({count, block->write(contestant, 0, stem)});
+    own.note_stem(stem);
   }
   return failures;
 }
