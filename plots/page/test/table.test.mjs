@@ -1,6 +1,7 @@
 // The page's reader of CSV files, without a browser.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { readFile } from "node:fs/promises";
 import { build } from "esbuild";
 import { fileURLToPath } from "node:url";
 import { csv_rows } from "./csv.mjs";
@@ -16,6 +17,7 @@ async function sources(file) {
     `data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`
   );
 }
+const root = new URL("../../../", import.meta.url);
 const { Table } = await sources("tables/table.ts");
 const { number_of, time_text } = await sources("base/numbers.ts");
 
@@ -59,4 +61,23 @@ test("numbers as C++ writes them", () => {
   assert.equal(number_of("4.3e-16"), 4.3e-16);
   assert.equal(time_text(NaN), "–");
   assert.equal(time_text(0.00123), "1.23 ms");
+});
+
+test("the page and `touchstone draw` have the same colours", async () => {
+  const { palettes } = await sources("scene/body_material.ts");
+  const source = await readFile(new URL("harness/draw/scene_picture.cpp", root), "utf8");
+  const of_state = (state) => {
+    const found = new RegExp(`BodyState::${state}: return \\{(.*)\\}`).exec(source);
+    return found[1].split(", ").reduce((colour, part) => 256 * colour + Number(part), 0);
+  };
+  assert.deepEqual(palettes[0].colours, ["apart", "possible", "overlapping"].map(of_state));
+});
+
+test("the resolution is that of the program", async () => {
+  const { resolution_of } = await sources("scene/resolution.ts");
+  const ball = { type: "sphere", radius: 0.4 };
+  const corner = [0.5, 1, 1.5];
+  assert.equal(resolution_of(ball, { type: "halfspace" }), 2 ** -45);
+  assert.equal(resolution_of(ball, { type: "box", half_extents: corner }), 4 * 2 ** -45);
+  assert.equal(resolution_of({ type: "hull", vertices: [[0, 0, 0], corner] }, ball), 2 * 2 ** -45);
 });
