@@ -284,7 +284,7 @@ test("answers that differ within the resolution are not counted as differing", (
     await scene.getByText("Open the scene").click();
     await scene.locator("canvas").waitFor();
     const text = await scene.textContent();
-    assert.match(text, /certified and gjk differ on 0 of them\. On 1 more .* within the resolution/);
+    assert.match(text, /certified and gjk differ on 0 of them\. On 1 their .* within the resolution/);
     assert.equal(await scene.locator("tr.pickable").count(), 0);
     await scene.getByLabel("list pairs within the resolution").check();
     assert.equal(await scene.locator("tr.pickable").count(), 1);
@@ -331,6 +331,42 @@ test("a scene that plays too slowly is drawn with fewer points, until it stands 
       async () => (await points()) === 2 && (await picture()).equals(still),
       "the same picture, as fine as before",
     );
+  }));
+
+test("on a phone the switches are folded, and the lines have their names", () =>
+  on_page(
+    async (page) => {
+      const curves = page.locator("#made-curves");
+      assert.equal(await curves.getByLabel("their-tree").isVisible(), false);
+      for (const name of ["tree", "their-tree"]) {
+        const box = await curves.locator("svg text", { hasText: new RegExp(`^${name}$`) }).boundingBox();
+        assert.ok(box.x + box.width <= 390, `${name} ends at ${box.x + box.width}`);
+      }
+      await curves.getByText("choose among 2").click();
+      await curves.getByLabel("their-tree").uncheck();
+      assert.equal(await curves.locator('g[aria-label="line"] path').count(), 1);
+    },
+    "",
+    { viewport: { width: 390, height: 800 } },
+  ));
+
+test("columns that say nothing are left out, until the file is shown as it stands", () =>
+  on_page(async (page) => {
+    const grid = page.locator("#made-times");
+    const columns = () => grid.locator("th[data-column]").evaluateAll((heads) => heads.map((head) => head.dataset.column));
+    assert.deepEqual(await columns(), [
+      "bodies", "algorithm", "origin", "seconds", "seconds_low", "seconds_high", "scene_hash", "update", "find_pairs",
+    ]);
+    assert.match(await grid.textContent(), /The same in all rows: scene grid, threads 1, .*Empty in all rows: task, pair kind/);
+    const low = grid.locator('tbody tr').first().locator("td").nth(4);
+    assert.equal(await low.textContent(), "9 µs");
+    assert.equal(await low.getAttribute("title"), "0.000009");
+    await grid.getByLabel("as in the file").check();
+    assert.equal((await columns()).length, 20);
+    assert.ok((await grid.locator("tbody tr").first().locator("td").allTextContents()).includes("0.000009"));
+    const downloading = page.waitForEvent("download");
+    await grid.getByText("Download").click();
+    assert.equal((await downloading).suggestedFilename(), "times.csv");
   }));
 
 test("narrow, dark and printed", async () => {

@@ -5,6 +5,7 @@ import { readFile } from "node:fs/promises";
 import { build } from "esbuild";
 import { fileURLToPath } from "node:url";
 import { csv_rows } from "./csv.mjs";
+import { pair } from "./made_up.mjs";
 
 async function sources(file) {
   const { outputFiles } = await build({
@@ -19,7 +20,7 @@ async function sources(file) {
 }
 const root = new URL("../../../", import.meta.url);
 const { Table } = await sources("tables/table.ts");
-const { number_of, time_text } = await sources("base/numbers.ts");
+const { field_text, number_of, time_text } = await sources("base/numbers.ts");
 
 const fields = (table) =>
   table.rows.map((_, row) => table.columns.map((_, column) => table.field(row, column)));
@@ -80,4 +81,36 @@ test("the resolution is that of the program", async () => {
   assert.equal(resolution_of(ball, { type: "halfspace" }), 2 ** -45);
   assert.equal(resolution_of(ball, { type: "box", half_extents: corner }), 4 * 2 ** -45);
   assert.equal(resolution_of({ type: "hull", vertices: [[0, 0, 0], corner] }, ball), 2 * 2 ** -45);
+});
+
+test("fields have three digits, and a unit where they are times", () => {
+  for (const [text, is_time, short] of [
+    ["5.19453768115942e-05", true, "51.9 µs"],
+    ["0", true, "0 s"],
+    ["1.0199296201186856", false, "1.02"],
+    ["-1.0199296201186856e-12", false, "−1.02e−12"],
+    ["1234567890123", false, "1234567890123"],
+    ["0.97", false, "0.97"],
+    ["", true, ""],
+    ["inf", true, "inf"],
+    ["nan", false, "nan"],
+  ])
+    assert.equal(field_text(text, is_time), short);
+});
+
+test("a pair is one entry, with its wrong answers first", async () => {
+  const { pairs_of, pair_text } = await sources("tables/pairs.ts");
+  const right = { ...pair.answers[0], algorithm: "sat", answer: "separated", grade: "right", why: "" };
+  const inexact = { ...right, algorithm: "mpr", grade: "approximate" };
+  const one = { ...pair, answers: [right, inexact, pair.answers[0]] };
+  const other = { ...one, source: "reproductions/block-0/other.jsonl", about: "other" };
+  const apart = { ...pair, id: "another", b: { ...pair.b, translation: [2, 0, 0] }, answers: [] };
+  const pairs = pairs_of([one, other, apart]);
+  assert.equal(pairs.length, 2);
+  assert.deepEqual(pairs[0].sources, [pair.source, other.source]);
+  assert.deepEqual(pairs[0].answers.map(({ algorithm }) => algorithm), ["gjk", "mpr", "sat"]);
+  assert.equal(
+    pair_text(pairs[0]),
+    "a thin gap: separated by 1.00e−9 m; gjk: says overlapping; mpr: wrong in its numbers (approximate by design)",
+  );
 });

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 // A floor that does not move; a box that rests on it, and two balls that overlap in the air.
-constexpr const char* resting = R"(
+constexpr const char* box_on_a_floor = R"(
 body = [
   {shape = {type = "box", half_extents = [5, 5, 1]}, translation = [0, 0, -1], moving = false},
   {shape = {type = "box", half_extents = [1, 1, 1]}, translation = [0, 0, 1]},
@@ -28,7 +28,7 @@ body = [
 class Draw : public testing::Test {
  protected:
   std::string printed(std::vector<std::string> options) {
-    const std::string scene = folder_.write("resting.toml", resting).string();
+    const std::string scene = folder_.write("resting.toml", box_on_a_floor).string();
     options.insert(options.begin(), {"draw", scene, "--out", (folder_.path() / "a.png").string(),
                                      "--width", "64", "--height", "64"});
     commands::CommandLine line("");

@@ -20,8 +20,8 @@ export function number_text(value: number): string {
   if (Number.isNaN(value)) return "–";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   const size = Math.abs(value);
-  if (value !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replace("-", "−");
-  return three_digits.format(value).replace("-", "−");
+  if (value !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replaceAll("-", "−");
+  return three_digits.format(value).replaceAll("-", "−");
 }
 
 export const count_text = (value: number): string => value.toLocaleString("en");

@@ -64,7 +64,7 @@ function differ_text(
   const names = `${recorded.algorithms[left]} and ${recorded.algorithms[right]}`;
   const near =
     within > 0
-      ? ` On ${within} more their answers differ within the resolution of double precision, 2.9e-14 of the pair, where both are right.`
+      ? ` On ${within} their answers differ within the resolution of double precision, 2.9e-14 of the pair, where both are right.`
       : "";
   return `${all} ${names} differ on ${differ} of them.${near}`;
 }
