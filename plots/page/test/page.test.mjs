@@ -87,7 +87,10 @@ test("tables sort by number, filter, and show all", () =>
     const grid = page.locator("#made-work");
     assert.equal((await column(page, "work.csv", "shuffled")).length, 200);
     await grid.getByText("Show all").click();
-    assert.equal((await column(page, "work.csv", "shuffled")).length, 500);
+    await until(
+      async () => (await column(page, "work.csv", "shuffled")).length === 500,
+      "all rows",
+    );
     const sort = grid.locator('th[data-column="shuffled"] button');
     await sort.focus();
     await page.keyboard.press("Enter");
