@@ -41,15 +41,19 @@ export function pair_text({ id, truth, answers }: Pair): string {
     truth.lower === null || truth.upper === null || truth.answer === "touching"
       ? ""
       : ` by ${number_text(Math.abs(truth.lower + truth.upper) / 2)} m`;
-  const said = ({ grade, answer }: AnswerView): string => {
-    if (grade === "crashed") return "crashed";
-    if (grade === "hung") return "did not end";
+  const said = ({ grade, answer }: AnswerView): [string, string] => {
+    if (grade === "crashed") return ["crashed", "crashed"];
+    if (grade === "hung") return ["did not end", "did not end"];
     const how = grade === "approximate" ? " (approximate by design)" : "";
-    return answer === truth.answer ? `wrong in its numbers${how}` : `says ${answer}${how}`;
+    return answer === truth.answer
+      ? [`is wrong in its numbers${how}`, `are wrong in their numbers${how}`]
+      : [`says ${answer}${how}`, `say ${answer}${how}`];
   };
-  const wrong = grouped(answers.filter(is_wrong), said);
-  const sentences = [...wrong].map(
-    ([what, of]) => `${distinct(of.map(({ algorithm }) => algorithm)).join(", ")}: ${what}`,
-  );
+  const wrong = grouped(answers.filter(is_wrong), (answer) => said(answer)[0]);
+  const sentences = [...wrong.values()].map((of) => {
+    const names = distinct(of.map(({ algorithm }) => algorithm));
+    const [one, several] = said(of[0]!);
+    return `${names.join(", ")} ${names.length === 1 ? one : several}`;
+  });
   return [`${id}: ${truth.answer}${measure}`, ...sentences].join("; ");
 }
