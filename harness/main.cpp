@@ -2,13 +2,15 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/program.h"
 
+#define TOUCHSTONE_OF_touchstone(name) {#name, commands::add_##name},
+#define TOUCHSTONE_OF_touchstone_more(name)
+#define TOUCHSTONE_OF_launcher(name)
+
 int main(int argc, char** argv) {
   using namespace touchstone;
-  return commands::run_program(argc, argv,
-                               {{"run", commands::add_run},
-                                {"compare", commands::add_compare},
-                                {"tables", commands::add_tables},
-                                {"list", commands::add_list},
-                                {"query", commands::add_query},
-                                {"pairs", commands::add_pairs}});
+  return commands::run_program(argc, argv, commands::this_build,
+                               {
+#define TOUCHSTONE_COMMAND(program, name, ...) TOUCHSTONE_OF_##program(name)
+#include "harness/commands/commands.inl"
+                               });
 }

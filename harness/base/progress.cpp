@@ -18,7 +18,7 @@ Progress::Progress(std::size_t steps)
     : steps_(std::max<std::size_t>(steps, 1)), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-  if (terminal_) fmt::print(stderr, "\r\033[K");
+  if (terminal_) fmt::print(stderr, "{}", line_begin);
 }
 
 void Progress::start(const std::string& label) {
@@ -42,7 +42,7 @@ void Progress::draw(double fraction) {
   drawn_at_ = now;
   const double done = (static_cast<double>(begun_) - 1 + fraction) / static_cast<double>(steps_);
   const int filled = std::clamp(static_cast<int>(done * bar_width), 0, bar_width);
-  fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {:.0f} s  {}", "", filled, "",
+  fmt::print(stderr, "{}[{:#<{}}{:.<{}}] {:3.0f} %  {:.0f} s  {}", line_begin, "", filled, "",
              bar_width - filled, 100 * done, now, label_);
   std::fflush(stderr);
 }

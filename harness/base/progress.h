@@ -11,6 +11,9 @@ namespace touchstone::base {
 // A bar that is redrawn on a terminal (standard error), or one line per step elsewhere.
 class Progress {
  public:
+  // What the bar prints before each drawing: back to the line's begin, and the line is cleared.
+  static constexpr const char* line_begin = "\r\033[K";
+
   // `steps` > 0 is the total number of steps.
   explicit Progress(std::size_t steps);
   ~Progress();

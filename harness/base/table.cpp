@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/file_text.h"
+
 namespace touchstone::base {
 namespace {
 
@@ -19,7 +21,8 @@ std::size_t characters(const std::string& text) {
 
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string all = "|";
-  for (std::string text : cells) {
+  for (const std::string& raw : cells) {
+    std::string text = printable(raw);
     for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
       text.insert(at, "\\");
     }
@@ -31,9 +34,11 @@ std::string markdown_row(const std::vector<std::string>& cells) {
 }  // namespace
 
 std::string Table::text(std::size_t page_width) const {
-  const std::size_t columns = rows_.front().size();
+  std::vector<std::vector<std::string>> rows = rows_;
+  for (auto& row : rows) std::ranges::transform(row, row.begin(), printable);
+  const std::size_t columns = rows.front().size();
   std::vector<std::size_t> width(columns, 0);
-  for (const auto& row : rows_) {
+  for (const auto& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], characters(row[i]));
   }
   constexpr std::size_t gap = 2;
@@ -45,10 +50,10 @@ std::string Table::text(std::size_t page_width) const {
       used += gap + width[end++];
     }
     if (begin > 1) text += '\n';
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      std::string line = fmt::format("{:<{}}", rows_[r][0], width[0]);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      std::string line = fmt::format("{:<{}}", rows[r][0], width[0]);
       for (std::size_t i = begin; i < end; ++i) {
-        line += fmt::format("{:>{}}", i < rows_[r].size() ? rows_[r][i] : "", width[i] + gap);
+        line += fmt::format("{:>{}}", i < rows[r].size() ? rows[r][i] : "", width[i] + gap);
       }
       line.erase(line.find_last_not_of(' ') + 1);
       text += line + '\n';

@@ -16,7 +16,7 @@ class Table {
   bool is_empty() const { return rows_.size() == 1; }
   const std::vector<std::vector<std::string>>& rows() const { return rows_; }  // the header first
 
-  // Returns the table for a terminal: the first column is aligned left, the others right. A table
+  // Control characters in cells are escaped (base::printable). Returns the table for a terminal: the first column is aligned left, the others right. A table
   // wider than the page is split into several, each with the first column again.
   std::string text(std::size_t page_width) const;
   // Returns the table as Markdown; characters that would end a cell are escaped.

@@ -24,7 +24,7 @@ class CampaignBlocks {
   std::int64_t size() const { return static_cast<std::int64_t>(blocks_.size()); }  // of all blocks
   // The blocks whose scenes are loaded; the others have no context and no label.
   const base::UnitRange& range() const { return range_; }
-  // Returns the context of a block, without a folder of reproductions.
+  // Returns the context of a block, without a results folder.
   RunContext context(std::int64_t number, record::Findings* findings) const;
   // Returns a label such as "uniform, 1000 bodies, 64 frames, tight boxes, 2 threads".
   std::string label(std::int64_t number) const;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "harness/files/folders/folder_name.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
 
@@ -284,7 +285,7 @@ Campaign read_campaign(const std::filesystem::path& file, const std::filesystem:
   const toml::table root = files::parse_toml(file);
   files::TomlTable table(root, file.string(), "");
   Campaign campaign;
-  campaign.name = table.text("name", file.stem().string());
+  campaign.name = files::folder_name(table, file);
   campaign.seed = static_cast<std::uint64_t>(
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
   campaign.published = stats::read_published(table);

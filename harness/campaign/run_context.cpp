@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace touchstone::campaign {
@@ -105,11 +104,6 @@ std::vector<measure::NarrowSet> RunContext::true_sets(const measure::BlockInput&
 
 std::string RunContext::place(std::size_t frame) const {
   return fmt::format("{}, {} bodies, frame {}", scene->name, scene->size(), frame);
-}
-
-std::string RunContext::file_name(std::string text) {
-  std::ranges::replace(text, ' ', '_');
-  return text;
 }
 
 record::Departure RunContext::departure(const AlgorithmInfo& info, std::string label,

@@ -34,8 +34,8 @@ struct RunContext {
   const Block* block = nullptr;
   const scene::Scene* scene = nullptr;
   std::string scene_hash;
-  // The folder of files that reproduce a departure; empty: none.
-  std::filesystem::path reproductions;
+  // The results folder, for files that reproduce a departure; empty: none.
+  std::filesystem::path results;
   record::Findings* findings = nullptr;
   std::span<const Block> blocks = {};      // all blocks of the campaign, by their numbers
   const BroadPhaseEntry* limit = nullptr;  // the lower bound, if the campaign measures it
@@ -59,8 +59,6 @@ struct RunContext {
   std::vector<measure::NarrowSet> true_sets(const measure::BlockInput& input) const;
   // Returns a place such as "home, 85 bodies, frame 3".
   std::string place(std::size_t frame) const;
-  // Returns the text with '_' for each blank, because names of scenes may have some.
-  static std::string file_name(std::string text);
   // Returns a departure of this algorithm in this block.
   record::Departure departure(const AlgorithmInfo& info, std::string label,
                               std::string where) const;

@@ -1,7 +1,10 @@
 // Reads and appends the rows of a run's folder.
 #include "harness/campaign/run_folder.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "harness/record/own_files.h"
 
 namespace touchstone::campaign {
 namespace {
@@ -22,11 +25,17 @@ RunFolder::RunFolder(std::filesystem::path folder, record::Facts facts, record::
                .identity = std::move(facts),
                .start = start,
                .work = "run",
-               .removed = {"reproductions", "tables.md"}}) {
+               .made = {"tables.md"}}) {
   if (start != record::FolderStart::resume) return;
   for (record::RawRow& row : folder_.rows<record::RawRow>(raw)) findings.add(std::move(row));
   for (record::Departure& one : folder_.rows<record::Departure>(departures))
     findings.add(std::move(one));
+  // A block that was stopped before its end is checked again, and writes these again.
+  record::OwnFiles(folder_.path("")).remove([&](const std::string& name) {
+    return std::ranges::none_of(findings.departures(), [&](const record::Departure& one) {
+      return one.reproduction.ends_with(name);
+    });
+  });
   rows_ = findings.rows().size();
   departures_ = findings.departures().size();
 }

@@ -98,7 +98,7 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
       progress.start(blocks.label(number));
       if (number < at) continue;
       RunContext context = blocks.context(number, &result.findings);
-      context.reproductions = folder / "reproductions" / fmt::format("block-{}", number);
+      context.results = folder;
       run_block(context, context.number == at, progress, files);
     }
     result.interrupted = process::InterruptGuard::raised();

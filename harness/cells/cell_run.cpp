@@ -115,7 +115,7 @@ class CellRun {
     plan.identity.insert(plan.identity.end(), request.identity.begin(), request.identity.end());
     for (auto& fact : record::machine_facts()) plan.identity.push_back(std::move(fact));
     plan.start = start;
-    plan.removed = {"times.csv", "best.csv", "speed_ups.csv", "tables.md"};
+    plan.made = {"times.csv", "best.csv", "speed_ups.csv", "tables.md"};
     return plan;
   }
 

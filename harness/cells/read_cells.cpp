@@ -14,6 +14,7 @@
 
 #include "harness/base/hash.h"
 #include "harness/cells/kinds.h"
+#include "harness/files/folders/folder_name.h"
 #include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/kind.h"
@@ -72,7 +73,7 @@ CellRequest read_cells(const std::filesystem::path& file) {
   const toml::table root = files::parse_toml(file);
   files::TomlTable top(root, file.string(), "");
   CellRequest request;
-  request.name = top.text("name", file.stem().string());
+  request.name = files::folder_name(top, file);
   files::TomlTable table = top.inside("cells", "cells");
   request.rounds = static_cast<int>(table.integer("rounds", 6, 10'000, request.rounds));
   request.sample_seconds = table.number("sample_seconds", files::positive, request.sample_seconds);

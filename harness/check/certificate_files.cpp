@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <optional>
 
 #include "algorithms/oracle/certificates/certificate_check.h"
 #include "algorithms/oracle/oracle.h"
-#include "harness/base/error.h"
 #include "harness/files/certificates.h"
+#include "harness/files/output_file.h"
 #include "harness/process/worker_pool.h"
 
 namespace touchstone::check {
@@ -40,7 +39,7 @@ oracle::Body body_of(const oracle::Solid& solid, const Pose& pose,
 }  // namespace
 
 std::int64_t save_certificates(const CheckRequest& request, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
+  files::OutputFile output(file);
   std::int64_t saved = 0;
   process::run_jobs<std::string>(
       0, request.regimes.size(), request.workers,
@@ -57,12 +56,11 @@ std::int64_t save_certificates(const CheckRequest& request, const std::filesyste
         };
       },
       [&](std::size_t, const std::string& lines) {
-        stream << lines;
+        output.write(lines);
         saved += request.cases;
         return true;
       });
-  stream.close();
-  if (!stream) throw base::InputError(file.string(), 0, "cannot be written");
+  output.close();
   return saved;
 }
 

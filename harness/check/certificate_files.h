@@ -11,7 +11,8 @@
 namespace touchstone::check {
 
 // Proves the exact answers of the first round's cases, as given, and writes one certificate per
-// line. Returns their number.
+// line. The file is whole, or its old content stays. Returns their number. Throws InputError if it
+// cannot be written.
 std::int64_t save_certificates(const CheckRequest& request, const std::filesystem::path& file);
 
 struct CertificateVerdicts {

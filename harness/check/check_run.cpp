@@ -29,11 +29,12 @@ void take_up(const record::ResultFolder& folder, const CheckSubjects& subjects, 
   folder.each_row<FamilyCount>(families_file, add, subjects);
 }
 
-void grade_all(const CheckRequest& request, record::ResultFolder& folder, Tally& tally) {
+// Returns true if an interrupt ended it.
+bool grade_all(const CheckRequest& request, record::ResultFolder& folder, Tally& tally) {
   const bool endless = request.seconds > 0;
   const base::UnitRange jobs =
       request.jobs(endless ? std::numeric_limits<std::int64_t>::max() : jobs_of(request));
-  if (folder.units() >= jobs.size()) return;
+  if (folder.units() >= jobs.size()) return false;
   const CheckSubjects subjects = request.subjects();
   const base::Stopwatch watch;
   base::Progress progress(endless ? 1 : static_cast<std::size_t>(jobs.size() - folder.units()));
@@ -42,7 +43,7 @@ void grade_all(const CheckRequest& request, record::ResultFolder& folder, Tally&
     folder.write(file, row, subjects);
     tally.add(row);
   };
-  do_jobs<JobResult>(
+  return do_jobs<JobResult>(
       folder, request, jobs,
       [&](std::size_t job, oracle::Oracle& oracle) { return do_job(request, job, oracle); },
       [&](std::size_t job, const JobResult& result) {
@@ -83,11 +84,8 @@ std::unique_ptr<CheckResult> run_check(const CheckRequest& request) {
   result->report.tally = &result->tally;
   record::ResultFolder folder(check_folder(request));
   if (request.resume) take_up(folder, request.subjects(), result->tally);
-  if (request.period() > 0) grade_all(request, folder, result->tally);
-  if (is_interrupted(folder, request)) {
-    result->interrupted = true;
-    return result;
-  }
+  if (request.period() > 0) result->interrupted = grade_all(request, folder, result->tally);
+  if (result->interrupted) return result;
   folder.finish();
   if (request.part) return result;
   if (!request.broad.empty()) result->scenes = box_scenes(request.seed);

@@ -15,7 +15,7 @@ struct CheckResult {
   Tally tally;
   std::vector<BoxScene> scenes;
   CheckReport report;
-  bool interrupted = false;  // a part that is not done
+  bool interrupted = false;  // rows are kept, and nothing is made of them
 };
 
 // Returns the folder that run_check fills, and the number of jobs without `seconds`.

@@ -19,10 +19,6 @@ std::string stem(const CheckRequest& request, const grade::Query& query) {
                      to_string(query.task));
 }
 
-std::filesystem::path failures_folder(const CheckRequest& request) {
-  return request.out / "failures";
-}
-
 }  // namespace
 
 std::string query_command(const CheckRequest& request, const grade::Query& query,
@@ -38,8 +34,8 @@ std::string FailureCase::command(const CheckRequest& request) const {
 
 std::vector<FailureCase> write_failures(const CheckRequest& request,
                                         const std::vector<grade::GradedAnswer>& failures) {
-  grade::remove_case_files(failures_folder(request));
-  grade::CaseFiles files(failures_folder(request));
+  grade::remove_case_files(request.out);
+  grade::CaseFiles files(request.out);
   std::vector<FailureCase> cases;
   const auto case_of = [&](const grade::GradedAnswer& failure) {
     return make(*request.regimes[failure.regime], request.seed, failure.index);
@@ -72,7 +68,7 @@ std::vector<FailureCase> write_failures(const CheckRequest& request,
 
 std::vector<VariantFailure> write_variant_failures(const CheckRequest& request,
                                                    const Tally& tally) {
-  grade::CaseFiles files(failures_folder(request));
+  grade::CaseFiles files(request.out);
   std::vector<VariantFailure> failures;
   for (const VariantCount& count : tally.variants_beyond()) {
     const grade::Query query = {count.regime, count.entry, count.scalar, count.task};
@@ -90,7 +86,7 @@ std::vector<VariantFailure> write_variant_failures(const CheckRequest& request,
 }
 
 std::vector<TruthFailure> write_truth_failures(const CheckRequest& request, const Tally& tally) {
-  grade::CaseFiles files(failures_folder(request));
+  grade::CaseFiles files(request.out);
   std::vector<TruthFailure> failures;
   for (const JobSummary& job : tally.jobs()) {
     if (job.refused + job.boxes_broken == 0) continue;

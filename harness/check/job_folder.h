@@ -25,17 +25,13 @@ record::ResultFolderPlan job_folder(const CheckRequest& request, std::string wor
                                     std::pair<std::string, std::string> subject,
                                     std::vector<record::RowFile> files);
 
-// Returns whether an interrupt ended the request's part before its last job.
-inline bool is_interrupted(const record::ResultFolder& folder, const CheckRequest& request) {
-  return request.part && folder.units() < request.part->units.size();
-}
-
 // Does the jobs of the range that the folder does not hold yet: work(job, oracle) in a worker, then
 // take(job, result) here, in order. If `take` returns false the run ends. Each job is a unit of the
-// folder.
+// folder. An interrupt ends them after the job at hand. Returns true if it ended them before the last.
 template <class Result, class Work, class Take>
-void do_jobs(record::ResultFolder& folder, const CheckRequest& request, base::UnitRange jobs,
+bool do_jobs(record::ResultFolder& folder, const CheckRequest& request, base::UnitRange jobs,
              const Work& work, const Take& take) {
+  const process::InterruptGuard guard;
   process::run_jobs<Result>(
       static_cast<std::size_t>(jobs.first + folder.units()), static_cast<std::size_t>(jobs.end),
       request.workers,
@@ -49,6 +45,7 @@ void do_jobs(record::ResultFolder& folder, const CheckRequest& request, base::Un
         folder.commit();
         return goes_on && !process::InterruptGuard::raised();
       });
+  return process::InterruptGuard::raised() && folder.units() < jobs.size();
 }
 
 }  // namespace touchstone::check

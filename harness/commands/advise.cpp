@@ -68,7 +68,8 @@ int advise(AdviseOptions& options) {
     task.budget = options.budget;
     folder = trade_folder(options.out, task.request.name);
   }
-  // A file that is no scene is reported before hours of work.
+  // A file that is no scene, or a disk that is not for writing, is reported before hours of work.
+  record::expect_writable(folder);
   for (const trade::AdviceTask& task : tasks) trade::TradeScene(task.request, representing());
   std::filesystem::create_directories(folder);
   std::optional<trade::VerificationRows> rows;

@@ -281,8 +281,9 @@ CommandLine::~CommandLine() = default;
 
 Arguments CommandLine::everywhere() { return {app_.get(), &status_}; }
 
-Arguments CommandLine::add_command(const std::string& name, const std::string& about) {
-  return {app_->add_subcommand(name, about), &status_};
+Arguments CommandLine::add_command(const std::string& name, const std::string& about,
+                                   const std::string& heading) {
+  return {app_->add_subcommand(name, about)->group(heading), &status_};
 }
 
 int CommandLine::run(const std::vector<std::string>& words) {

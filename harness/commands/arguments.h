@@ -131,7 +131,9 @@ class CommandLine {
 
   // Returns the options that may stand anywhere.
   Arguments everywhere();
-  Arguments add_command(const std::string& name, const std::string& about);
+  // `heading` is that under which --help lists the command.
+  Arguments add_command(const std::string& name, const std::string& about,
+                        const std::string& heading = "Commands");
 
   // Runs the command of these words, which do not include the program's name. Prints --help, or the
   // error in the words and what was expected. Returns the exit status; exceptions of the command's

@@ -45,6 +45,7 @@ int check(CheckOptions& options, const std::string& command) {
     return exit_done;
   }
   const std::unique_ptr<check::CheckResult> result = check::run_check(request);
+  if (result->interrupted) return end_interrupted();
   fmt::print("{}", check::summary_text(result->report, base::page_width()));
   fmt::print("\nRows in grades.csv and families.csv of {}; case files of what is wrong in {}\n",
              request.out.string(), (request.out / "failures").string());

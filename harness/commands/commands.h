@@ -13,32 +13,17 @@ enum ExitStatus : int {
   exit_undecided = 3,       // `compare` alone: the samples are too few or too noisy
 };
 
-// The commands of the executable `touchstone`.
-void add_run(Arguments command);
-void add_compare(Arguments command);
-void add_tables(Arguments command);
-void add_list(Arguments command);
-void add_query(Arguments command);
-void add_pairs(Arguments command);
+// add_NAME for each command of either executable.
+#define TOUCHSTONE_COMMAND(program, name, ...) TOUCHSTONE_DECLARE_##program(name)
+#define TOUCHSTONE_DECLARE_touchstone(name) void add_##name(Arguments command);
+#define TOUCHSTONE_DECLARE_touchstone_more(name) void add_##name(Arguments command);
+#define TOUCHSTONE_DECLARE_launcher(name)
+#include "harness/commands/commands.inl"
+#undef TOUCHSTONE_DECLARE_touchstone
+#undef TOUCHSTONE_DECLARE_touchstone_more
+#undef TOUCHSTONE_DECLARE_launcher
 
-// The commands of the executable `touchstone_more`.
-void add_check(Arguments command);
-void add_soak(Arguments command);
-void add_stress(Arguments command);
-void add_manifold(Arguments command);
-void add_rays(Arguments command);
-void add_points(Arguments command);
-void add_ccd(Arguments command);
-void add_cast(Arguments command);
-void add_draw(Arguments command);
-void add_record(Arguments command);
-void add_trade(Arguments command);
-void add_advise(Arguments command);
-void add_represent(Arguments command);
-void add_report(Arguments command);
-void add_plan(Arguments command);
-void add_merge(Arguments command);
-void add_status(Arguments command);
-void add_run_file(Arguments command);  // `run` for all but a campaign
+// `run` of the executable `touchstone_more`: for all but a campaign.
+void add_run_file(Arguments command);
 
 }  // namespace touchstone::commands

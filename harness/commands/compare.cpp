@@ -107,12 +107,9 @@ int compare_files(const CompareOptions& options) {
 stats::Results run(const std::string& program, const std::string& campaign,
                    const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  // These are left from an earlier comparison.
-  std::filesystem::remove(folder / "raw.csv");
-  std::filesystem::remove(files::packed_name(folder / "raw.csv"));
   const std::filesystem::path log = folder / "output.txt";
-  const int status =
-      process::run_and_wait(program, {"run", campaign, "--out", folder.string()}, log);
+  const int status = process::run_and_wait(
+      program, {"run", campaign, "--out", folder.string(), "--overwrite"}, log);
   if (status != exit_done && status != exit_measured_wrong) {
     throw base::InputError(fmt::format("'{} run {}' ended with status {}; its output is in {}",
                                        program, campaign, status, log.string()));

@@ -23,6 +23,7 @@ struct DrawOptions {
   std::string scene, out, view = "corner";
   scene::SceneOverrides overrides;
   int frame = 0, width = 1280, height = 960;
+  bool with_fixed = false;
 };
 
 Vec3d direction(const std::string& view) {
@@ -32,8 +33,10 @@ Vec3d direction(const std::string& view) {
   return {-1, 1.6, -1.7};
 }
 
-std::vector<draw::BodyState> states_of(const scene::Scene& scene,
-                                       const scene::ScenePlayer& player) {
+// Pairs with a body that does not move count if `with_fixed` is true: all that stands on a floor is
+// in contact with it.
+std::vector<draw::BodyState> states_of(const scene::Scene& scene, const scene::ScenePlayer& player,
+                                       bool with_fixed) {
   std::vector<draw::BodyState> states(player.boxes().size(), draw::BodyState::apart);
   Executor executor(1);
   const std::unique_ptr<BroadPhase> broad =
@@ -41,7 +44,12 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene,
   PairSink sink;
   broad->build(player.boxes());
   broad->find_pairs(sink);
-  const std::vector<IndexPair> pairs = sink.gather();
+  std::vector<IndexPair> pairs = sink.gather();
+  if (!with_fixed && !scene.bodies.empty()) {
+    std::erase_if(pairs, [&](const IndexPair& pair) {
+      return !scene.bodies[pair.a].moving || !scene.bodies[pair.b].moving;
+    });
+  }
   const auto mark = [&](std::uint32_t body, draw::BodyState state) {
     states[body] = std::max(states[body], state);
   };
@@ -103,18 +111,21 @@ void draw(const DrawOptions& options) {
   }
   scene::ScenePlayer player(scene, scene::BoxKind::tight);
   while (player.frame() < options.frame) player.next();
-  const std::vector<draw::BodyState> states = states_of(scene, player);
+  const std::vector<draw::BodyState> states = states_of(scene, player, options.with_fixed);
+  const bool has_fixed =
+      std::ranges::any_of(scene.bodies, [](const scene::Body& body) { return !body.moving; });
   draw::Canvas canvas(options.width, options.height, draw::View(direction(options.view)));
   draw::draw_scene(canvas, scene, player.poses(), player.boxes(), states);
   canvas.write_png(options.out);
   fmt::print(
-      "{}: frame {} of {}, {} bodies: {} certainly apart (red), {} possibly in contact (green), "
-      "{} {} (blue)\n",
+      "{}: frame {} of {}, {} bodies: {} certainly apart (grey), {} possibly in contact (amber), "
+      "{} {} (red){}\n",
       options.out, options.frame, scene.name, scene.size(),
       std::ranges::count(states, draw::BodyState::apart),
       std::ranges::count(states, draw::BodyState::possible),
       std::ranges::count(states, draw::BodyState::overlapping),
-      scene.recording.empty() ? "overlapping" : "overlapping: a recording has no bodies to tell");
+      scene.recording.empty() ? "overlapping" : "overlapping: a recording has no bodies to tell",
+      has_fixed && !options.with_fixed ? "; contacts with fixed bodies do not count" : "");
 }
 
 }  // namespace
@@ -128,6 +139,8 @@ void add_draw(Arguments command) {
       .check([](const std::string& name) {
         return name.ends_with(".png") ? "" : "the picture's name must end in .png";
       });
+  command.flag("--with-fixed", options->with_fixed,
+               "Colour contacts with bodies that do not move, too");
   command.number("--frame", options->frame, "Which frame").show_default();
   command.text("--view", options->view, "From where")
       .among({"corner", "front", "side", "top"})

@@ -15,59 +15,69 @@
 #include <iterator>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "algorithms/core/isa.h"
 #include "harness/base/error.h"
 #include "harness/commands/commands.h"
+#include "harness/process/standard_output.h"
+#include "harness/record/machine.h"
 
 namespace touchstone::commands {
 namespace {
 
-struct CommandName {
-  const char* name;
-  const char* about;
+struct CommandRow {
+  std::string_view program, name, heading, about;
 };
 
-constexpr std::array all_commands = std::to_array<CommandName>({
-    {"run", "Run a campaign: every scene through every algorithm, compared and timed"},
-    {"compare", "Compare two results, or two builds of this program: is B slower than A?"},
-    {"tables",
-     "Write the tables of a results folder, or see whether those of a reference hold here"},
-    {"check", "Grade every algorithm against exact answers, in regimes that are hard"},
-    {"soak", "Count verdicts by the million against exact ones, in regimes that are hard"},
-    {"stress",
-     "Drive every narrow phase to where it breaks: scale, proportions, distance, gap, ..."},
-    {"report", "Make a page of results and scenes that opens in a browser"},
-    {"list", "List the algorithms, built or not"},
-    {"query", "Ask narrow phases about pairs of bodies"},
-    {"manifold", "The contact points of bodies that lie on each other"},
-    {"rays", "Cast rays at a mesh or a scene"},
-    {"points", "Find closest points of a mesh, and what is inside"},
-    {"ccd",
-     "When moving vertices, faces and edges meet: the contacts that are missed, and the time"},
-    {"cast", "Ask casts when two moving bodies first touch"},
-    {"pairs", "Find the pairs of boxes that overlap"},
-    {"draw", "Draw a frame of a scene as a PNG"},
-    {"record", "Write a scene's boxes as a recording"},
-    {"trade", "Speed against accuracy on a scene: every configuration, and the Pareto front"},
-    {"advise", "The cheapest configuration for a scene that is right enough, by measuring"},
-    {"plan", "Cut a campaign, a check or a soak into shards for many machines"},
-    {"status", "How far the shards of a plan are, and which failed"},
-    {"merge", "Join the shards of a plan"},
-    {"represent", "What stands for a scene's bodies, from ball to mesh, and how far off it is"},
+constexpr std::array all_commands = std::to_array<CommandRow>({
+#define TOUCHSTONE_COMMAND(program, name, takes, heading, about) {#program, #name, heading, about},
+#include "harness/commands/commands.inl"
 });
 
 bool is_command(std::string_view word) {
-  return std::ranges::find(all_commands, word, &CommandName::name) != all_commands.end();
+  const auto* const row = std::ranges::find(all_commands, word, &CommandRow::name);
+  return row != all_commands.end() && row->program != "launcher";
 }
 
-int run_command(const std::vector<std::string>& words, std::initializer_list<OwnCommand> own) {
-  const auto command = std::ranges::find_if(words, is_command);
+// Returns what to write instead of a command that was renamed, or an empty text.
+std::string_view new_name([[maybe_unused]] std::string_view word) {
+#define TOUCHSTONE_RENAMED(name, line) \
+  if (word == #name) return line;
+#include "harness/commands/commands.inl"
+  return {};
+}
+
+// Removes the word that names the build of the program that runs this one, and compares the two.
+void take_other_build(std::vector<std::string>& words) {
+  if (words.empty() || !words.front().starts_with(record::of_build_option)) return;
+  const std::string other = words.front().substr(record::of_build_option.size());
+  if (other != record::build().id) {
+    throw base::InputError(
+        std::filesystem::read_symlink("/proc/self/exe").string(), 0,
+        fmt::format("was built from other sources than the program that runs it (build {}, and not "
+                    "{}); expected both of one build: the launcher, or `ninja touchstone "
+                    "touchstone_more`, makes them",
+                    record::build().id, other));
+  }
+  words.erase(words.begin());
+}
+
+int run_command(std::vector<std::string> words, std::initializer_list<OwnCommand> own) {
+  take_other_build(words);
   const auto own_command = [&](std::string_view name) {
     return std::ranges::find(own, name, &OwnCommand::name);
   };
-  if (command != words.end() && own_command(*command) == own.end()) hand_over();
+  const auto command = std::ranges::find_if(
+      words, [](const std::string& word) { return is_command(word) || !new_name(word).empty(); });
+  if (command != words.end()) {
+    if (!is_command(*command)) {
+      throw base::InputError(
+          fmt::format("`{}` is now `touchstone {}`", *command, new_name(*command)));
+    }
+    if (own_command(*command) == own.end()) hand_over();
+  }
 
   CommandLine line("Touchstone: a benchmark of collision detection that checks what it measures");
   std::string isa_name = "best";
@@ -80,9 +90,11 @@ int run_command(const std::vector<std::string>& words, std::initializer_list<Own
     if (isa_name == "baseline") limit_isa(Isa::baseline);
     if (isa_name == "avx2") limit_isa(Isa::avx2);
   });
-  for (const CommandName& name : all_commands) {
-    const Arguments arguments = line.add_command(name.name, name.about);
-    const auto at = own_command(name.name);
+  for (const CommandRow& row : all_commands) {
+    if (row.program == "launcher") continue;
+    const Arguments arguments =
+        line.add_command(std::string(row.name), std::string(row.about), std::string(row.heading));
+    const auto at = own_command(row.name);
     if (at != own.end()) at->add(arguments);
   }
   return line.run(words);
@@ -90,32 +102,48 @@ int run_command(const std::vector<std::string>& words, std::initializer_list<Own
 
 }  // namespace
 
+std::string more_program() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "touchstone_more";
+}
+
+std::string more_first_word() {
+  return fmt::format("{}{}", record::of_build_option, record::build().id);
+}
+
 void hand_over() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::string first = more_first_word();
   std::vector<char*> words;
-  for (std::size_t i = 0; i < text.size(); i = text.find('\0', i) + 1) words.push_back(&text[i]);
+  for (std::size_t i = 0; i < text.size(); i = text.find('\0', i) + 1) {
+    words.push_back(&text[i]);
+    if (i == 0) words.push_back(first.data());
+  }
   words.push_back(nullptr);
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path program = self.parent_path() / "touchstone_more";
-  if (self == program) throw base::InputError("found a command of `touchstone`; expected another");
+  const std::string program = more_program();
+  if (std::filesystem::read_symlink("/proc/self/exe") == program) {
+    throw base::InputError("found a command of `touchstone`; expected another");
+  }
   std::fflush(stdout);
   execv(program.c_str(), words.data());
   throw base::InputError(
-      program.string(), 0,
-      fmt::format("cannot be run ({}); expected the executable of this command, which "
-                  "the launcher builds",
+      program, 0,
+      fmt::format("cannot be run ({}); expected the second program of this build, which the "
+                  "launcher makes",
                   std::strerror(errno)));
 }
 
-int run_program(int argc, char** argv, std::initializer_list<OwnCommand> own) {
+int run_program(int argc, char** argv, const record::Build& build,
+                std::initializer_list<OwnCommand> own) {
+  record::set_build(build);
+  process::escape_output();
   try {
-    return run_command(std::vector<std::string>(argv + 1, argv + argc), own);
-  } catch (const base::InputError& error) {
-    std::fprintf(stderr, "touchstone: %s\n", error.what());  // fmt would throw if the write fails
+    const int status = run_command(std::vector<std::string>(argv + 1, argv + argc), own);
+    return process::finish_output() ? status : exit_bad_request;
   } catch (const std::bad_alloc&) {
     std::fputs("touchstone: out of memory\n", stderr);
   } catch (const std::exception& error) {
+    // fmt would throw if the write fails.
     std::fprintf(stderr, "touchstone: %s\n", error.what());
   }
   return exit_bad_request;

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <initializer_list>
+#include <string>
 #include <string_view>
 
 #include "harness/commands/arguments.h"
+#include "harness/record/build.h"
 
 namespace touchstone::commands {
 
@@ -17,8 +19,17 @@ struct OwnCommand {
   void (*add)(Arguments command);
 };
 
+// What the executables are built from, in a file that the build writes. It is linked into them alone.
+extern const record::Build this_build;
+
 // The body of main(). A command of the other executable is run by that.
-int run_program(int argc, char** argv, std::initializer_list<OwnCommand> own);
+int run_program(int argc, char** argv, const record::Build& build,
+                std::initializer_list<OwnCommand> own);
+
+// Returns the path of `touchstone_more`, which is beside this program, and the word that has to stand
+// before all others when it is run: with it, a program of another build refuses to run.
+std::string more_program();
+std::string more_first_word();
 
 // Replaces this process by `touchstone_more` with the same words, or throws InputError.
 [[noreturn]] void hand_over();

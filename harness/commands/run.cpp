@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <string_view>
 
 #include "harness/base/error.h"
 #include "harness/campaign/plan.h"
@@ -132,10 +133,13 @@ int run_other_file(const RunOptions& options) {
   hand_over();
 }
 
-// Names the tables itself, because this executable lacks what reads them.
+// Takes the keys from the table of commands, because this executable lacks what reads them.
 bool is_other_file(const std::string& file) {
-  return std::ranges::any_of(std::array{"trade", "check", "stress", "soak", "cells"},
-                             [&](const char* key) { return files::has_key(file, key); });
+  constexpr auto keys = std::to_array<std::string_view>({
+#define TOUCHSTONE_MORE_KEY(name, key) key,
+#include "harness/commands/commands.inl"
+  });
+  return std::ranges::any_of(keys, [&](std::string_view key) { return files::has_key(file, key); });
 }
 
 // Writes tables.md and prints the summary, or all tables on request.
@@ -176,12 +180,7 @@ int run(const RunOptions& options) {
   const campaign::RunResult result = campaign::run_campaign(campaign, folder, start_of(options));
   report(campaign, result, folder, options);
   if (options.with_page) make_page(folder);
-  if (result.interrupted) {
-    fmt::print(stderr,
-               "touchstone: interrupted; what was measured until then is kept, and --resume goes "
-               "on with it\n");
-    return exit_bad_request;
-  }
+  if (result.interrupted) return end_interrupted();
   return result.findings.ours_are_wrong() ? exit_measured_wrong : exit_done;
 }
 

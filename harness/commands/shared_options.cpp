@@ -9,6 +9,8 @@
 #include <cstdio>
 
 #include "harness/base/error.h"
+#include "harness/base/file_name.h"
+#include "harness/commands/commands.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone::commands {
@@ -86,9 +88,19 @@ void expect_not_given(std::initializer_list<Option> options, const std::string& 
   }
 }
 
-std::filesystem::path results_folder(const std::string& out, const std::string& name) {
+std::filesystem::path results_folder(const std::string& out, const std::string& name,
+                                     const std::string& prefix) {
+  const std::string fault = base::name_fault(name);
+  if (!fault.empty()) throw base::InputError("the name of the work: " + fault);
   if (!out.empty()) return out;
-  return std::filesystem::path(record::source_folder) / "results/local" / name;
+  return std::filesystem::path(record::source_folder) / "results/local" / (prefix + name);
+}
+
+int end_interrupted() {
+  fmt::print(stderr,
+             "touchstone: interrupted; what was done until then is kept, and --resume goes on with "
+             "it\n");
+  return exit_bad_request;
 }
 
 void print_failures(std::string_view algorithm, std::span<const process::IsolationFailure> failures,

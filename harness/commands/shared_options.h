@@ -54,8 +54,13 @@ void add_case_options(Arguments& command, Request& request, std::string& narrow,
   command.flag("--resume", request.resume, "Go on with the " + work + " in this folder");
 }
 
-// Returns the folder `out`; if that is empty, results/local/NAME in the project.
-std::filesystem::path results_folder(const std::string& out, const std::string& name);
+// Returns the folder `out`; if that is empty, results/local/PREFIXNAME in the project. Throws
+// InputError if the name cannot be that of a folder (base::name_fault).
+std::filesystem::path results_folder(const std::string& out, const std::string& name,
+                                     const std::string& prefix = "");
+
+// Says that work which --resume continues was interrupted; returns the exit status.
+int end_interrupted();
 
 // Throws InputError if one of these options was given. `expected` says where it may be, such as "with
 // --task distance alone".

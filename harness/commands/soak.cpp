@@ -28,6 +28,7 @@ int soak(SoakOptions& options) {
   check::select_cases(options.selection, "none", request);
   request.out = results_folder(options.out, "soak");
   const check::SoakResult result = check::run_soak(request);
+  if (result.interrupted) return end_interrupted();
   fmt::print("{}", check::soak_text(request, result, base::page_width()));
   fmt::print("\nBy regime: {}\n", (request.out / "soak.csv").string());
   return result.ours_are_wrong(request) ? exit_measured_wrong : exit_done;

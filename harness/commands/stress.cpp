@@ -48,6 +48,7 @@ int stress(StressOptions& options, const std::string& command) {
     files::check_output(options.page);
   }
   const check::StressResult result = check::run_stress(request);
+  if (result.interrupted) return end_interrupted();
   fmt::print("{}", check::stress_text(request, result, base::page_width()));
   fmt::print("\nRows in {}; case files of what is wrong in {}\n",
              (request.out / "stress.csv").string(), (request.out / "failures").string());

@@ -111,15 +111,13 @@ std::filesystem::path run_again(const std::filesystem::path& reference,
   }
   const std::filesystem::path out = results_folder(options.out, "tables");
   std::filesystem::create_directories(out);
-  // These are left from an earlier check.
-  std::filesystem::remove(out / "raw.csv");
-  std::filesystem::remove(files::packed_name(out / "raw.csv"));
   fmt::print(stderr, "running {}; what it prints is in {}\n", campaign.string(),
              (out / "output.txt").string());
-  const int status = process::run_and_wait(
-      "/proc/self/exe",
-      {"--isa", std::string(to_string(isa())), "run", campaign.string(), "--out", out.string()},
-      out / "output.txt");
+  const int status =
+      process::run_and_wait("/proc/self/exe",
+                            {"--isa", std::string(to_string(isa())), "run", campaign.string(),
+                             "--out", out.string(), "--overwrite"},
+                            out / "output.txt");
   if (status != exit_done && status != exit_measured_wrong) {
     throw base::InputError(fmt::format("the campaign ended with status {}; its output is in {}",
                                        status, (out / "output.txt").string()));

@@ -48,13 +48,14 @@ int run_motion_trade(const TradeOptions& options) {
         "--motion asks which pairs touch in a step, and its error is the share of hits missed; "
         "expected neither --task nor --error with it");
   }
+  if (!options.out.empty()) record::expect_writable(options.out);
   const cells::MotionTrade trade = cells::plan_motion_trade(
       cells::default_motion_trade(options.scene, asked.overrides, asked.threads), asked.seconds);
   const std::filesystem::path folder = trade_folder(options.out, trade.cells.name + "-motion");
   const cells::CellRunResult result =
       cells::run_cells(trade.cells, folder, record::FolderStart::overwrite,
                        [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
-  if (result.interrupted) return exit_bad_request;
+  if (result.interrupted) return end_interrupted();
   stats::write_cell_tables(folder, trade.cells.name, folder);
   fmt::print("{}\n", cells::write_motion_front(trade, folder));
   fmt::print("{}: points.csv, front.csv, front.md, tables.md, raw.csv\n", folder.string());
@@ -65,10 +66,11 @@ int run_motion_trade(const TradeOptions& options) {
 }  // namespace
 
 std::filesystem::path trade_folder(const std::string& out, const std::string& name) {
-  return results_folder(out, "trade-" + name);
+  return results_folder(out, name, "trade-");
 }
 
 int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, bool with_figure) {
+  record::expect_writable(folder);
   trade::TradeScene scene(request, representing());
   files::expect_other_files(scene.scene.inputs(),
                             std::vector<files::NamedFile>{{"--out", folder / "trade.toml"}});

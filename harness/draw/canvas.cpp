@@ -2,7 +2,6 @@
 #include "harness/draw/canvas.h"
 
 #include <png.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <limits>
 
 #include "harness/base/error.h"
+#include "harness/files/output_file.h"
 
 namespace touchstone::draw {
 namespace {
@@ -161,17 +161,17 @@ void Canvas::write_png(const std::filesystem::path& file) const {
   image.width = static_cast<png_uint_32>(width_);
   image.height = static_cast<png_uint_32>(height_);
   image.format = PNG_FORMAT_RGB;
-  const std::filesystem::path temporary = file.string() + ".tmp" + std::to_string(getpid());
-  std::error_code error;
-  if (png_image_write_to_file(&image, temporary.c_str(), 0, pixels.data(), 0, nullptr) == 0) {
-    std::filesystem::remove(temporary, error);
+  const auto expect = [&](int done) {
+    if (done != 0) return;
     throw base::InputError(file.string(), 0, std::string("cannot be written: ") + image.message);
-  }
-  std::filesystem::rename(temporary, file, error);
-  if (error) {
-    std::filesystem::remove(temporary);
-    throw base::InputError(file.string(), 0, "cannot be written: " + error.message());
-  }
+  };
+  png_alloc_size_t size = 0;
+  expect(png_image_write_to_memory(&image, nullptr, &size, 0, pixels.data(), 0, nullptr));
+  std::vector<char> bytes(size);
+  expect(png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr));
+  files::OutputFile output(file);
+  output.write({bytes.data(), size});
+  output.close();
 }
 
 }  // namespace touchstone::draw

@@ -14,9 +14,9 @@ constexpr int polytope_level = 2;
 
 Colour colour_of(BodyState state) {
   switch (state) {
-    case BodyState::apart: return {214, 72, 58};
-    case BodyState::possible: return {86, 170, 84};
-    case BodyState::overlapping: return {58, 108, 200};
+    case BodyState::apart: return {0x9a, 0xa0, 0xa6};
+    case BodyState::possible: return {0xe8, 0xb0, 0x4a};
+    case BodyState::overlapping: return {0xd2, 0x3c, 0x32};
   }
   return {128, 128, 128};
 }

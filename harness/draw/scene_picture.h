@@ -18,9 +18,9 @@ enum class BodyState : std::uint8_t {
   overlapping,  // the narrow phase finds it in contact
 };
 
-// Colours bodies by their state: apart red, possible green, overlapping blue. Curved shapes are
-// drawn as polytopes, a half-space as its face near the other bodies. A recording has no bodies:
-// `poses` is empty and the boxes are drawn.
+// Colours bodies by their state, as the page does: apart grey, possible amber, overlapping red.
+// Curved shapes are drawn as polytopes, a half-space as its face near the other bodies. A recording
+// has no bodies: `poses` is empty and the boxes are drawn.
 void draw_scene(Canvas& canvas, const scene::Scene& scene, std::span<const Pose> poses,
                 std::span<const Aabb> boxes, std::span<const BodyState> states);
 

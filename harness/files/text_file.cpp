@@ -1,15 +1,11 @@
 // Reads and writes text files.
 #include "harness/files/text_file.h"
 
-#include <fmt/format.h>
-
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 #include "harness/base/error.h"
+#include "harness/files/output_file.h"
 
 namespace touchstone::files {
 
@@ -21,21 +17,9 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 void write_text(const std::filesystem::path& file, const std::string& content) {
-  std::ofstream stream(file, std::ios::binary);
-  const bool opened = stream.is_open();
-  stream << content;
-  stream.close();
-  if (!stream) {
-    const int cause = errno;
-    std::error_code ignored;
-    // Half a file would pass for a whole one. Devices stay, and so does what could not be opened.
-    if (opened &&
-        std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored))) {
-      std::filesystem::remove(file, ignored);
-    }
-    throw base::InputError(file.string(), 0,
-                           fmt::format("cannot be written: {}", std::strerror(cause)));
-  }
+  OutputFile output(file);
+  output.write(content);
+  output.close(OutputFile::Durable::against_kills);
 }
 
 }  // namespace touchstone::files

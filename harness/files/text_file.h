@@ -9,7 +9,7 @@ namespace touchstone::files {
 // Returns the content of a file. Throws InputError if it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 
-// Throws InputError if the file cannot be written whole; what was written of it is removed.
+// Writes the file as an OutputFile is written: whole, or its old content stays. Throws InputError.
 void write_text(const std::filesystem::path& file, const std::string& content);
 
 }  // namespace touchstone::files

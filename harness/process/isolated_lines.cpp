@@ -71,7 +71,8 @@ struct Place {
 }  // namespace
 
 LinesReport isolated_lines(std::size_t items, const IsolationLimits& limits,
-                           const std::function<MakeLine()>& setup, std::ostream& out) {
+                           const std::function<MakeLine()>& setup,
+                           const std::function<void(const std::string& line)>& take) {
   const TemporaryFile file;
   SharedArray<Place> places(items);
   IsolationReport report = isolate(items, limits, [&]() -> ItemWork {
@@ -86,7 +87,7 @@ LinesReport isolated_lines(std::size_t items, const IsolationLimits& limits,
   LinesReport lines{0, std::move(report.failures)};
   for (std::size_t item = 0; item < items; ++item) {
     if (report.states[item] != ItemState::done || places[item].size == 0) continue;
-    out << file.read(places[item].begin, places[item].size);
+    take(file.read(places[item].begin, places[item].size));
     ++lines.lines;
   }
   return lines;

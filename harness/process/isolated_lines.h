@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,10 +20,11 @@ struct LinesReport {
   std::vector<IsolationFailure> failures;  // in the order of the items
 };
 
-// Runs the items as isolate() does, `setup` returns what makes their lines. Writes the lines to `out`, in the items'
-// order, once all are made; until then they are in a temporary file. An item that is lost has no line. Throws
+// Runs the items as isolate() does, `setup` returns what makes their lines. Hands the lines, with their line breaks, to
+// `take` in the items' order, once all are made; until then they are in a temporary file. An item that is lost has no line. Throws
 // std::system_error if there is no temporary file.
 LinesReport isolated_lines(std::size_t items, const IsolationLimits& limits,
-                           const std::function<MakeLine()>& setup, std::ostream& out);
+                           const std::function<MakeLine()>& setup,
+                           const std::function<void(const std::string& line)>& take);
 
 }  // namespace touchstone::process

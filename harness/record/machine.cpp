@@ -2,6 +2,7 @@
 #include "harness/record/machine.h"
 
 #include <fmt/chrono.h>
+#include <link.h>
 #include <sched.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -13,13 +14,11 @@
 #endif
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <set>
 #include <thread>
 #include <vector>
@@ -27,6 +26,7 @@
 #include "algorithms/core/isa.h"
 #include "harness/base/hash.h"
 #include "harness/base/shell_word.h"
+#include "harness/record/build.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone::record {
@@ -156,23 +156,43 @@ std::string preloaded() {
   return value == nullptr || *value == '\0' ? "none" : value;
 }
 
-// Returns the output of git, or "unknown" without git or repository.
-std::string git(const std::string& arguments) {
-  const std::string command = fmt::format("git -C '{}' {} 2>/dev/null", source_folder, arguments);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  std::string text;
-  char buffer[256];
-  while (pipe && std::fgets(buffer, sizeof buffer, pipe.get()) != nullptr) text += buffer;
-  return text;
+constexpr Build not_said;
+const Build* build_in_use = &not_said;
+
+void mix_in(std::string_view bytes, std::uint64_t& hash) {
+  for (std::size_t i = 0; i < bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    bytes.substr(i, 8).copy(reinterpret_cast<char*>(&word), 8);
+    hash = base::mix(hash ^ word);
+  }
+}
+
+// Mixes in the instructions of the first object that is loaded, which is the program, and stops.
+int mix_in_instructions(dl_phdr_info* object, std::size_t, void* hash) {
+  for (int i = 0; i < object->dlpi_phnum; ++i) {
+    const auto& part = object->dlpi_phdr[i];
+    if (part.p_type != PT_LOAD || (part.p_flags & PF_X) == 0) continue;
+    const auto* const begin = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
+    mix_in({begin, part.p_filesz}, *static_cast<std::uint64_t*>(hash));
+  }
+  return 1;
 }
 
 }  // namespace
+
+void set_build(const Build& build) { build_in_use = &build; }
+
+const Build& build() { return *build_in_use; }
 
 std::string shell_line(const std::string& words) {
   std::string line;
   for (std::size_t at = 0; at < words.size();) {
     const std::size_t end = std::min(words.find('\0', at), words.size());
     std::string word = words.substr(at, end - at);
+    if (at > 0 && word.starts_with(of_build_option)) {
+      at = end + 1;
+      continue;
+    }
     // The program appears by its name alone, because its folder has no influence on the results.
     if (at == 0) word.erase(0, word.rfind('/') + 1);
     for (char& c : word) {
@@ -228,12 +248,9 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
   add("preloaded", preloaded());
   add("instructions_of_machine", to_string(isa_of_machine()));
   add("instructions_in_use", to_string(isa()));
-  std::string commit = git("rev-parse HEAD");
-  if (!commit.empty()) commit.pop_back();
-  add("commit", commit);
-  // Results are no source: those of an earlier run may have changed.
-  const bool clean = git("status --porcelain -- . ':(exclude)results'").empty();
-  add("tree", commit.empty() ? "" : clean ? "clean" : "changed");
+  add("commit", build().commit);
+  add("tree", build().tree);
+  add("sources", build().sources);
   add(command_line_fact, command_line());
   return facts;
 }
@@ -252,18 +269,9 @@ std::string date_now() {
 }
 
 std::string hash_of_program() {
-  std::ifstream file("/proc/self/exe", std::ios::binary);
   std::uint64_t hash = 0;
-  std::vector<char> buffer(std::size_t{1} << 20);
-  while (file) {
-    std::ranges::fill(buffer, '\0');
-    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    for (std::size_t i = 0; i < static_cast<std::size_t>(file.gcount()); i += 8) {
-      std::uint64_t word = 0;
-      std::copy_n(buffer.data() + i, 8, reinterpret_cast<char*>(&word));
-      hash = base::mix(hash ^ word);
-    }
-  }
+  dl_iterate_phdr(mix_in_instructions, &hash);
+  mix_in(build().id, hash);
   return base::to_hex(hash);
 }
 

@@ -12,7 +12,7 @@ namespace touchstone::record {
 
 // Returns facts as name and value, "unknown" if the system does not report it: processor, cores,
 // caches, governor, turbo, kernel, memory, limits, compiler and flags, vector instructions in use,
-// versions of the libraries, commit, changes of the tree (but results/) since, command line.
+// versions of the libraries, what was built (build.h), command line.
 std::vector<std::pair<std::string, std::string>> machine_facts();
 // The fact that may differ when a run is resumed.
 inline constexpr std::string_view command_line_fact = "command_line";
@@ -20,14 +20,19 @@ inline constexpr std::string_view command_line_fact = "command_line";
 // Returns the machine's facts of these names as a list in Markdown.
 std::string facts_as_list(std::initializer_list<std::string_view> names);
 
+// What the program puts in front of its words where it hands them to its second half: the id of its
+// build.
+inline constexpr std::string_view of_build_option = "--of-build=";
+
 // Returns the words of a command, each ended by a NUL, as one line that a shell reads as the same
-// words. The folder of the program is left out; line ends are blanks.
+// words. The folder of the program and `of_build_option` are left out; line ends are blanks.
 std::string shell_line(const std::string& words);
 
 // Returns date and time in UTC: "2026-01-31 13:05:00 UTC".
 std::string date_now();
 
-// Returns 16 hexadecimal digits, a hash of the bytes of this program.
+// Returns 16 hexadecimal digits, a hash of the instructions of this program and of what it was built
+// from. Another commit of the same sources has the same.
 std::string hash_of_program();
 
 }  // namespace touchstone::record

@@ -10,42 +10,29 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
+#include "harness/files/folders/file_hash.h"
 #include "harness/files/row_file.h"
 #include "harness/record/machine.h"
+#include "harness/record/own_files.h"
 
 namespace touchstone::record {
 namespace {
 
-constexpr const char* units_key = "units";
 constexpr double seconds_for_others = 2;
 
 // The source folder may change while the program stays equal.
 constexpr std::array<std::string_view, 2> source_facts = {"commit", "tree"};
-
-// Returns a number of a progress.csv.
-std::int64_t number_of(const std::filesystem::path& progress, const Facts& found,
-                       std::string_view name) {
-  const std::string text = value_of(found, name);
-  std::int64_t value = -1;
-  const char* const end = text.data() + text.size();
-  const auto [stop, fault] = std::from_chars(text.data(), end, value);
-  if (fault != std::errc{} || stop != end || value < 0) {
-    throw base::InputError(progress.string(), 0,
-                           fmt::format("{}: found '{}'; expected a number", name, text));
-  }
-  return value;
-}
 
 // Returns the length of the header's line, bytes.
 std::uintmax_t header_size(const RowFile& file) {
@@ -64,6 +51,18 @@ void expect_header(const std::filesystem::path& path, const RowFile& file) {
 }
 
 }  // namespace
+
+void expect_writable(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::path there = std::filesystem::absolute(folder).lexically_normal();
+  while (!std::filesystem::exists(there, error) && there != there.parent_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error)) {
+    throw base::InputError(folder.string(), 0,
+                           there.string() + " is no folder; expected one, or nothing there");
+  }
+  files::check_output(there / "machine.csv");
+}
 
 ResultFolder::ResultFolder(ResultFolderPlan plan) : plan_(std::move(plan)) {
   std::error_code error;
@@ -134,22 +133,44 @@ void ResultFolder::begin_anew() {
                       plan_.work));
     }
   }
-  // machine.csv is removed first and written first, so rows never stand beside the facts of other
-  // work.
-  std::vector<std::filesystem::path> old = {machine(), progress()};
+  std::vector<std::filesystem::path> old;
   for (const RowFile& file : plan_.files) {
     old.push_back(path(file.name));
     old.push_back(files::packed_name(path(file.name)));
   }
+  for (const std::string& name : plan_.made) old.push_back(path(name));
+  old.push_back(progress());
+  // It is removed last and written first, so that rows never stand beside the facts of other work,
+  // and so that a kill leaves a folder that is known as this program's.
+  old.push_back(machine());
+  OwnFiles own(plan_.folder);
+  expect_own(old);
+  own.remove([](const std::string&) { return true; });
   for (const auto& file : old) {
     std::filesystem::remove(file, error);
     if (error) throw base::InputError(file.string(), 0, "cannot be replaced: " + error.message());
   }
-  for (const std::string& name : plan_.removed) std::filesystem::remove_all(path(name), error);
   begun_ = date_now();
   write_facts(false, {});
   open();
   write_progress();
+}
+
+void ResultFolder::expect_own(const std::vector<std::filesystem::path>& names) const {
+  std::error_code error;
+  const bool is_ours =
+      std::filesystem::is_regular_file(std::filesystem::symlink_status(machine(), error)) &&
+      !value_of(read_facts(machine()), finished_fact).empty();
+  for (const std::filesystem::path& file : names) {
+    const auto status = std::filesystem::symlink_status(file, error);
+    if (!std::filesystem::exists(status)) continue;
+    if (is_ours && std::filesystem::is_regular_file(status)) continue;
+    throw base::InputError(
+        file.string(), 0,
+        fmt::format("was not written by this program; expected another folder for the {}, or that "
+                    "file elsewhere",
+                    plan_.work));
+  }
 }
 
 void ResultFolder::compare_identity() {
@@ -182,19 +203,25 @@ void ResultFolder::compare_identity() {
   }
 }
 
+void ResultFolder::begin_more() {
+  is_finished_ = false;
+  write_facts(false, {});
+}
+
 void ResultFolder::take_up() {
   compare_identity();
+  is_finished_ = was_finished_;
   cut_to_progress();
   open();
 }
 
 void ResultFolder::cut_to_progress() {
   std::error_code error;
-  const bool any = std::filesystem::exists(progress(), error);
-  const Facts found = any ? read_facts(progress()) : Facts{};
-  if (any) units_ = number_of(progress(), found, units_key);
+  // Without progress.csv, the work was stopped before its first unit.
+  std::optional<RowProgress> progress_there;
+  if (std::filesystem::exists(progress(), error)) progress_there.emplace(plan_.folder);
+  if (progress_there) units_ = progress_there->units();
   for (const RowFile& file : plan_.files) {
-    // If progress.csv is missing, the work was stopped before its first unit.
     const std::filesystem::path name = path(file.name);
     const std::filesystem::path rows = files::row_file(name);
     if (rows != name) {
@@ -203,31 +230,45 @@ void ResultFolder::cut_to_progress() {
                                          "of it",
                                          file.name));
     }
+    const auto status = std::filesystem::symlink_status(name, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+      throw base::InputError(name.string(), 0, "is no regular file; expected the rows to resume");
+    }
     std::uintmax_t there = std::filesystem::file_size(name, error);
     if (error) there = 0;
-    if (!any && there > header_size(file)) {
+    if (!progress_there && there > header_size(file)) {
       throw base::InputError(
           progress().string(), 0,
           fmt::format("is not there, beside rows in {}; expected the folder of a {} "
                       "of this program to resume",
                       file.name, plan_.work));
     }
-    const auto size =
-        any ? static_cast<std::uintmax_t>(number_of(progress(), found, file.name)) : 0;
+    const std::uintmax_t size =
+        progress_there ? static_cast<std::uintmax_t>(progress_there->size(file.name)) : 0;
     if (size > 0 && there > 0) expect_header(name, file);
     if (there < size) {
       throw base::InputError(
           name.string(), 0,
           fmt::format("{} bytes; expected at least {}, as progress.csv says", there, size));
     }
-    if (there > size) std::filesystem::resize_file(name, size, error);
-    if (there > size && error) {
-      throw base::InputError(name.string(), 0, "cannot be cut: " + error.message());
+    rows_.push_back(progress_there ? progress_there->expect(file.name, plan_.identity)
+                                   : RowsOfFile{.name = file.name, .hash = {}});
+    if (there <= size) continue;
+    if (was_finished_) {
+      throw base::InputError(
+          name.string(), 0,
+          fmt::format("{} bytes; expected {} of a {} that is finished, as progress.csv says", there,
+                      size, plan_.work));
     }
+    std::filesystem::resize_file(name, size, error);
+    if (error) throw base::InputError(name.string(), 0, "cannot be cut: " + error.message());
   }
 }
 
 void ResultFolder::open() {
+  if (rows_.empty()) {
+    for (const RowFile& file : plan_.files) rows_.push_back({.name = file.name, .hash = {}});
+  }
   for (const RowFile& file : plan_.files) {
     writers_.push_back(std::make_unique<files::CsvWriter>(path(file.name), file.header,
                                                           files::CsvWriter::Keep::appended_rows));
@@ -244,9 +285,7 @@ void ResultFolder::commit(std::int64_t units) {
 std::int64_t ResultFolder::append(std::size_t file, const std::filesystem::path& other) {
   const std::filesystem::path rows_there = other / plan_.files[file].name;
   expect_header(rows_there, plan_.files[file]);
-  const std::filesystem::path progress_there = other / progress().filename();
-  const auto size = static_cast<std::uintmax_t>(
-      number_of(progress_there, read_facts(progress_there), plan_.files[file].name));
+  const auto size = static_cast<std::uintmax_t>(RowProgress(other).size(plan_.files[file].name));
   std::error_code error;
   const std::uintmax_t there = std::filesystem::file_size(rows_there, error);
   if (error || there != size) {
@@ -268,17 +307,19 @@ std::int64_t ResultFolder::append(std::size_t file, const std::filesystem::path&
   return rows;
 }
 
-void ResultFolder::write_progress() const {
-  Facts facts = {{units_key, std::to_string(units_)}};
-  for (std::size_t i = 0; i < plan_.files.size(); ++i) {
-    facts.emplace_back(plan_.files[i].name, std::to_string(writers_[i]->size()));
+void ResultFolder::write_progress() {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const std::int64_t size = writers_[i]->size();
+    files::add_file(rows_[i].hash, path(rows_[i].name), rows_[i].size, size);
+    rows_[i].size = size;
   }
-  record::write_facts(progress(), facts, files::CsvWriter::Durable::against_kills);
+  record::write_progress(plan_.folder, units_, rows_, plan_.identity);
 }
 
 void ResultFolder::finish(const Facts& more) {
   for (const auto& writer : writers_) writer->close();
   write_facts(true, more);
+  is_finished_ = true;
 }
 
 void ResultFolder::write_facts(bool finished, const Facts& more) const {

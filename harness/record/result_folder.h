@@ -2,10 +2,11 @@
 //
 // The folder holds
 // - row files such as raw.csv, to which rows are appended;
-// - progress.csv (name,value): the number of finished units of work, and the length of each row
-//   file at that moment. An interrupted unit (a round, a job, a cell) is measured anew;
-// - machine.csv (name,value): the identity of the work, facts of the machine, and `finished`.
-// A kill at any moment loses at most the current unit.
+// - progress.csv (name,value): the number of finished units of work, and the length and hash of each
+//   row file at that moment. An interrupted unit (a round, a job, a cell) is measured anew;
+// - machine.csv (name,value): the identity of the work, facts of the machine, and `finished`;
+// - files.txt: further files that this program wrote (harness/record/own_files.h).
+// A kill at any moment loses at most the current unit. Files of others stay.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +21,7 @@
 #include "harness/files/csv.h"
 #include "harness/record/facts.h"
 #include "harness/record/row.h"
+#include "harness/record/row_progress.h"
 
 namespace touchstone::record {
 
@@ -53,16 +55,22 @@ struct ResultFolderPlan {
   Facts notes = {};  // further facts of machine.csv, which may differ
   FolderStart start = FolderStart::fresh;
   std::string work = "run";  // for messages: run, check, sweep, ...
-  // Further files and folders of earlier work, which are removed when work begins anew.
-  std::vector<std::string> removed = {};
+  // Further files that are made of the rows. They are removed when work begins anew, as are those
+  // that files.txt lists.
+  std::vector<std::string> made = {};
 };
+
+// Throws InputError if files cannot be written in the folder, or the folder cannot be made. Leaves
+// nothing behind. Call it before long work.
+void expect_writable(const std::filesystem::path& folder);
 
 class ResultFolder {
  public:
   // Makes the folder if the work begins anew. To resume, cuts the row files back to the last whole
   // unit; `rows` reads them afterwards. Throws InputError if the folder cannot be written, is in
-  // use by another process, or holds work that must not be lost; OtherWork if what it holds cannot be
-  // resumed.
+  // use by another process, or holds work that must not be lost, or files of others by the names of
+  // the work's; or, to resume, if rows are not those that progress.csv says. Throws OtherWork if what
+  // it holds cannot be resumed.
   explicit ResultFolder(ResultFolderPlan plan);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
@@ -93,7 +101,11 @@ class ResultFolder {
   // number. Throws InputError if its columns differ, or if it does not have the size that its
   // progress.csv says.
   std::int64_t append(std::size_t file, const std::filesystem::path& other);
-  files::CsvWriter& writer(std::size_t file) { return *writers_[file]; }
+  // Work that was finished is not finished any more.
+  files::CsvWriter& writer(std::size_t file) {
+    if (is_finished_) begin_more();
+    return *writers_[file];
+  }
   // Ends `units` units: everything written since the last call is permanent from now on.
   void commit(std::int64_t units = 1);
   // Writes machine.csv with `finished` and these further facts.
@@ -105,18 +117,22 @@ class ResultFolder {
   void lock();
   void remove_leftovers() const;
   void begin_anew();
+  // Throws InputError if one of these files is not of this program, or a symbolic link.
+  void expect_own(const std::vector<std::filesystem::path>& names) const;
   void take_up();
+  void begin_more();
   void compare_identity();
   void cut_to_progress();
   void open();
-  void write_progress() const;
+  void write_progress();
   void write_facts(bool finished, const Facts& more) const;
 
   ResultFolderPlan plan_;
   int lock_ = -1;  // descriptor of the folder
-  bool was_finished_ = false;
+  bool was_finished_ = false, is_finished_ = false;  // at the start, and by machine.csv now
   std::string begun_;  // when the work was begun, not when it was resumed
   std::int64_t units_ = 0;
+  std::vector<RowsOfFile> rows_;                            // what progress.csv says of each file
   std::vector<std::unique_ptr<files::CsvWriter>> writers_;  // one for each file
 };
 

@@ -110,6 +110,10 @@ OrderedJson recording_view(const RecordingRequest& request) {
     shapes.push_back(scene.concave_of(i) != nullptr ? mesh_view(*scene.mesh_of(i))
                                                     : shape_view(scene.shapes[i]));
   }
+  OrderedJson fixed = OrderedJson::array();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!scene.bodies[i].moving) fixed.push_back(i);
+  }
   const std::vector<measure::NarrowChoice> asked = choices(request, input);
   for (const measure::NarrowChoice& choice : asked) {
     if (!boxes_only) names.push_back(choice.name());
@@ -124,6 +128,7 @@ OrderedJson recording_view(const RecordingRequest& request) {
           {"bodies", bodies},
           {"shapes", std::move(shapes)},
           {"shape_of", input.shape_of},
+          {"fixed", std::move(fixed)},
           {"poses", boxes_only ? std::string() : packed_poses(input)},
           {"boxes", packed_boxes(input, bodies)},
           {"algorithms", std::move(names)},

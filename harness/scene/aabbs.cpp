@@ -2,7 +2,6 @@
 #include "harness/scene/aabbs.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,9 +10,9 @@
 #include <cstring>
 #include <fstream>
 #include <string_view>
-#include <system_error>
 
 #include "harness/base/error.h"
+#include "harness/files/output_file.h"
 
 namespace touchstone::scene {
 namespace {
@@ -148,32 +147,20 @@ void write_aabbs(const BoxRecording& recording, const std::filesystem::path& pat
         "cannot hold this recording; expected frames of equally many boxes, from 1 to "
         "2147483647 of each");
   }
-  std::filesystem::path temporary = path;
-  temporary += fmt::format(".{}.part", ::getpid());
-  const auto fail = [&](const std::string& why) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw base::InputError(path.string(), 0, "cannot be written: " + why);
-  };
-
-  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+  files::OutputFile output(path);
   std::vector<char> bytes(header_size);
   recording.scene.copy(bytes.data(), text_size - 1);
   recording.type.copy(bytes.data() + text_size, text_size - 1);
   store(static_cast<std::uint32_t>(n), bytes.data() + count_at);
   store(static_cast<std::uint32_t>(recording.frames.size() - 1), bytes.data() + steps_at);
   store_box(recording.world, bytes.data() + world_at);
-  stream.write(bytes.data(), header_size);
+  output.write({bytes.data(), header_size});
   bytes.resize(n * box_size);
   for (const auto& frame : recording.frames) {
     for (std::size_t i = 0; i < n; ++i) store_box(frame[i], bytes.data() + i * box_size);
-    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    output.write({bytes.data(), bytes.size()});
   }
-  stream.close();
-  if (!stream) fail("is the folder there, and the disk not full?");
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) fail(error.message());
+  output.close();
 }
 
 }  // namespace touchstone::scene

@@ -13,10 +13,12 @@
 #include <utility>
 
 #include "harness/base/error.h"
+#include "harness/base/file_name.h"
 #include "harness/files/byte_reader.h"
 #include "harness/files/row_file.h"
 #include "harness/files/zstd_writer.h"
 #include "harness/record/machine.h"
+#include "harness/record/own_files.h"
 #include "harness/shards/machines.h"
 #include "harness/shards/shard_run.h"
 #include "harness/shards/status.h"
@@ -60,6 +62,7 @@ class Merge {
     if (setting_.zstd) {
       for (const std::string& name : work->row_files()) pack(temporary_ / name);
     }
+    keep_files_of_others();
     put_in_place();
     result.written = true;
     replace_all(result.merged.text, temporary_.string(), place_.string());
@@ -114,6 +117,8 @@ class Merge {
         part.folder = part_path(shard_path(plan_.folder, shard.shard), units);
         const record::Facts facts = facts_of(part.folder);
         expect_of_plan(part, facts);
+        expect_host(part, facts);
+        record::RowProgress(part.folder).expect_all(facts);
         part.machine = machine = machines_.name_of(facts);
         const std::string begun = record::value_of(facts, record::begun_fact);
         if (begun_.empty() || begun < begun_) begun_ = begun;
@@ -137,6 +142,14 @@ class Merge {
           fmt::format("{} is '{}'; expected '{}', as shard {} is said to be done", name, found,
                       value, part.shard));
     }
+  }
+
+  // The host names a folder of the results.
+  static void expect_host(const DonePart& part, const record::Facts& facts) {
+    const std::string fault = base::name_fault(record::value_of(facts, host_fact));
+    if (fault.empty()) return;
+    throw base::InputError((part.folder / "machine.csv").string(), 0,
+                           fmt::format("{}: {}", host_fact, fault));
   }
 
   record::Facts merged_facts(const std::string& missing) const {
@@ -181,6 +194,45 @@ class Merge {
       packed.write(std::string_view(buffer.data(), got));
     packed.close();
     fs::remove(file);
+  }
+
+  // Returns the files in a folder, without the list of its own ones.
+  static std::vector<fs::path> files_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
+      const bool is_folder = entry.is_directory(error) && !entry.is_symlink(error);
+      if (!is_folder && entry.path() != folder / record::OwnFiles::list_name)
+        files.push_back(entry.path());
+    }
+    return files;
+  }
+
+  // Lists all files of the results as this program's, and takes over from the folder that they
+  // replace what somebody else has put there. The lists tell the two apart.
+  void keep_files_of_others() const {
+    std::error_code error;
+    const std::vector<fs::path> results = files_in(temporary_);
+    std::vector<fs::path> others;
+    if (fs::is_directory(out_, error)) {
+      const record::OwnFiles old(out_);
+      for (const fs::path& file : files_in(out_)) {
+        const fs::path name = file.lexically_relative(out_);
+        if (!old.has(name.generic_string()) && !fs::exists(temporary_ / name, error))
+          others.push_back(name);
+      }
+    }
+    record::OwnFiles(temporary_).note(results);
+    for (const fs::path& name : others) {
+      fs::create_directories((temporary_ / name).parent_path(), error);
+      // A link takes no room and no time; not every file system has them.
+      fs::create_hard_link(out_ / name, temporary_ / name, error);
+      if (error) fs::copy(out_ / name, temporary_ / name, fs::copy_options::copy_symlinks, error);
+      if (error) {
+        throw base::InputError((out_ / name).string(), 0,
+                               "is not of these results, and cannot be kept: " + error.message());
+      }
+    }
   }
 
   // Exchanges the two folders, so that at every moment one of them is whole in its place.

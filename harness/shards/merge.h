@@ -49,8 +49,9 @@ struct MergeResult {
 // same plan are replaced. Partial results say in machine.csv that they are not finished, and which
 // shards are `missing`. Rows are streamed and come in the order of one undisturbed run. Beside
 // them are machine.csv, with the facts that all machines share, machines/NAME/machine.csv with all
-// facts of each, and shards.csv: who did what, and how long. Throws InputError if a shard is of
-// another plan, program or scene, if rows are missing or double, or if `out` holds other results.
+// facts of each, shards.csv: who did what, and how long, and files.txt, which lists them. Files of
+// others in `out` stay. Throws InputError if a shard is of another plan, program or scene, if rows are
+// not those of which the shard's progress.csv has the hash, or if `out` holds other results.
 MergeResult merge_plan(const std::filesystem::path& plan, const std::filesystem::path& out,
                        const MergeSetting& setting);
 

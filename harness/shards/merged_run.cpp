@@ -8,7 +8,9 @@
 #include <system_error>
 
 #include "harness/base/error.h"
+#include "harness/base/file_text.h"
 #include "harness/campaign/run_folder.h"
+#include "harness/files/folders/inside.h"
 #include "harness/record/findings.h"
 #include "harness/stats/machines/blocks.h"
 #include "harness/stats/machines/machine_tables.h"
@@ -68,7 +70,13 @@ class RunMerge {
   std::string take_reproduction(const DonePart& part, const std::string& file) {
     const std::size_t at = file.rfind(reproductions);
     if (at == std::string::npos) return file;
-    const std::filesystem::path name = file.substr(at);
+    const std::filesystem::path name = std::filesystem::path(file.substr(at)).lexically_normal();
+    if (!files::is_regular_inside(part.folder / name, part.folder / reproductions)) {
+      throw base::InputError(
+          (part.folder / "departures.csv").string(), 0,
+          fmt::format("names {}, which is no file in {} of the part; expected one",
+                      base::shortened(name.string()), reproductions));
+    }
     std::error_code error;
     std::filesystem::create_directories((into_ / name).parent_path(), error);
     std::filesystem::copy_file(part.folder / name, into_ / name,

@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "harness/base/error.h"
+#include "harness/base/file_name.h"
+#include "harness/base/file_text.h"
 #include "harness/base/hash.h"
 #include "harness/base/shell_word.h"
 #include "harness/files/text_file.h"
@@ -34,6 +36,29 @@ void columns(Row& row, Visit visit) {
 
 constexpr const char* plan_file = "plan.csv";
 constexpr const char* shards_file = "shards.csv";
+
+// Sets what a row of plan.csv says. Throws InputError with its line.
+void take_fact(ShardPlan& plan, Fact fact, const files::CsvReader::Row& row) {
+  if (fact.about == "work") {
+    plan.identity.emplace_back(std::move(fact.name), std::move(fact.value));
+  } else if (fact.name == "id") {
+    plan.id = fact.value;
+  } else if (fact.name == "kind") {
+    plan.kind = fact.value;
+  } else if (fact.name == "name") {
+    const std::string fault = base::name_fault(fact.value);
+    if (!fault.empty()) row.fail("name: " + fault);
+    plan.name = fact.value;
+  } else if (fact.name == "file") {
+    if (!base::is_component(fact.value)) {
+      row.fail(fmt::format("file: found '{}'; expected the name of a file in {}",
+                           base::shortened(fact.value), campaign_folder));
+    }
+    plan.file = fact.value;
+  } else if (fact.name == "home") {
+    plan.home = fact.value;
+  }
+}
 
 // Units that belong together are cut as one.
 std::vector<base::UnitRange> atoms_of(const Work& work, const std::vector<double>& seconds) {
@@ -161,6 +186,7 @@ ShardPlan make_plan(const std::filesystem::path& file, const ShardSetting& setti
   }
   const std::unique_ptr<Work> work = read_work(file);
   const std::string campaign = files::read_text(file);
+  record::expect_writable(folder);  // before the trials that the estimate takes
   ShardPlan plan{.folder = folder,
                  .id = {},
                  .kind = std::string(work->kind()),
@@ -171,7 +197,7 @@ ShardPlan make_plan(const std::filesystem::path& file, const ShardSetting& setti
                  .shards = cut_work(*work, setting, file.string())};
   plan.id = id_of(plan, campaign);
   std::filesystem::create_directories(folder / "logs", error);
-  if (!error) std::filesystem::create_directories(plan.campaign().parent_path(), error);
+  if (!error) std::filesystem::create_directories(folder / campaign_folder, error);
   if (error) throw base::InputError(folder.string(), 0, "cannot be made: " + error.message());
   files::write_text(plan.campaign(), campaign);
   record::write_rows(folder / shards_file, plan.shards);
@@ -195,21 +221,9 @@ ShardPlan read_plan(const std::filesystem::path& folder) {
   }
   ShardPlan plan;
   plan.folder = folder;
-  for (Fact& fact : record::read_rows<Fact>(folder / plan_file)) {
-    if (fact.about == "work") {
-      plan.identity.emplace_back(std::move(fact.name), std::move(fact.value));
-    } else if (fact.name == "id") {
-      plan.id = fact.value;
-    } else if (fact.name == "kind") {
-      plan.kind = fact.value;
-    } else if (fact.name == "name") {
-      plan.name = fact.value;
-    } else if (fact.name == "file") {
-      plan.file = fact.value;
-    } else if (fact.name == "home") {
-      plan.home = fact.value;
-    }
-  }
+  record::reader_of<Fact>(folder / plan_file).read([&](const files::CsvReader::Row& row) {
+    take_fact(plan, record::read_row<Fact>(row), row);
+  });
   plan.shards = record::read_rows<PlannedShard>(folder / shards_file);
   const std::string id = id_of(plan, files::read_text(plan.campaign()));
   if (plan.shards.empty() || id != plan.id) {

@@ -18,6 +18,8 @@
 
 namespace touchstone::shards {
 
+inline constexpr const char* campaign_folder = "campaign";
+
 struct PlannedShard {
   std::int64_t shard = 0;
   base::UnitRange units;
@@ -43,7 +45,7 @@ struct ShardPlan {
   record::Facts identity;      // what every shard must share
   std::vector<PlannedShard> shards;
 
-  std::filesystem::path campaign() const { return folder / "campaign" / file; }
+  std::filesystem::path campaign() const { return folder / campaign_folder / file; }
   // Returns the shard. Throws InputError if there is none with this number.
   const PlannedShard& shard(std::int64_t number) const;
 };
@@ -56,10 +58,11 @@ struct ShardSetting {
 };
 
 // Plans the work of a file and writes the plan. Throws InputError if there are fewer units than
-// shards, if the folder cannot be written, or if it holds a plan.
+// shards, if the folder cannot be written, which is found before the trials, or if it holds a plan.
 ShardPlan make_plan(const std::filesystem::path& file, const ShardSetting& setting,
                     const std::filesystem::path& folder);
-// Reads a plan. Throws InputError if there is none, or it is not whole.
+// Reads a plan. Throws InputError if there is none, if it is not whole, or if its name or its file is
+// no name of one component.
 ShardPlan read_plan(const std::filesystem::path& folder);
 
 }  // namespace touchstone::shards

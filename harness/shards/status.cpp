@@ -10,13 +10,18 @@
 #include <limits>
 #include <sstream>
 
+#include "harness/base/shell_word.h"
+#include "harness/files/folders/inside.h"
+
 namespace touchstone::shards {
 namespace {
 
 constexpr std::array<std::string_view, 4> state_names = {"done", "running", "failed", "to come"};
 
-// Returns the last line of a log that says something.
-std::string last_line(const std::string& log) {
+// Returns the last line of a log that says something. Nothing is read but a file of the plan's folder,
+// because whoever can write attempts.csv could name any file, or a pipe that nobody writes to.
+std::string last_line(const std::filesystem::path& log, const std::filesystem::path& plan) {
+  if (!files::is_regular_inside(log, plan)) return "";
   constexpr std::streamoff looked_at = 4096;
   std::ifstream stream(log, std::ios::binary | std::ios::ate);
   if (!stream) return "";
@@ -76,7 +81,7 @@ ShardStatus status_of(const ShardPlan& plan, std::int64_t shard) {
     status.words =
         fmt::format("{}{}{}", to_string(last.event), last.words.empty() ? "" : ": ", last.words);
   }
-  const std::string said = last.log.empty() ? "" : last_line(last.log);
+  const std::string said = last.log.empty() ? "" : last_line(last.log, plan.folder);
   if (!said.empty() && said.find(last.words) == std::string::npos)
     status.words += fmt::format("; its last words: {}", said);
   return status;
@@ -139,8 +144,8 @@ std::string status_text(const ShardPlan& plan, const PlanStatus& status) {
   if (!status.failed.empty()) {
     std::vector<std::int64_t> numbers;
     for (const ShardStatus& shard : status.failed) numbers.push_back(shard.shard);
-    text += fmt::format("to run these again: {} {}\n", (plan.folder / "slurm.sh").string(),
-                        list_of(numbers));
+    text += fmt::format("to run these again: {} {}\n",
+                        base::shell_word((plan.folder / "slurm.sh").string()), list_of(numbers));
   }
   if (status.left) text += fmt::format("about {} left\n", duration(*status.left));
   return text;

@@ -58,8 +58,10 @@ class TradeWork final : public Work {
       const std::string& name = of(part.units.first).name;
       std::error_code error;
       std::filesystem::create_directories(folder.path, error);
-      std::filesystem::copy(part.folder, folder.path / name,
-                            std::filesystem::copy_options::recursive, error);
+      std::filesystem::copy(
+          part.folder, folder.path / name,
+          std::filesystem::copy_options::recursive | std::filesystem::copy_options::skip_symlinks,
+          error);
       if (error) {
         throw base::InputError(part.folder.string(), 0, "cannot be copied: " + error.message());
       }

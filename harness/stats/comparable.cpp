@@ -52,7 +52,8 @@ constexpr std::array facts_remarked = {"affinity",
                                        "cgal",
                                        "boost_geometry",
                                        "commit",
-                                       "tree"};
+                                       "tree",
+                                       "sources"};
 
 std::string fact(const Results& results, const char* name) {
   const auto at = results.machine.find(name);

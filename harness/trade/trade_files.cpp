@@ -106,8 +106,8 @@ TradeFiles::TradeFiles(const TradeRequest& request, const TradeScene& scene,
                .notes = record::machine_facts(),
                .start = record::FolderStart::overwrite,
                .work = "trade",
-               .removed = {"points.csv", "bins.csv", "front.csv", "front.md", "left_out.csv",
-                           "trade.toml"}}) {}
+               .made = {"points.csv", "bins.csv", "front.csv", "front.md", "left_out.csv",
+                        "trade.toml"}}) {}
 
 void TradeFiles::write(const PointSample& from, const Configuration& configuration) {
   const measure::Round& round = from.round;

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "harness/files/folders/folder_name.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
 
@@ -184,7 +185,7 @@ std::vector<TradeRequest> read_trades(const std::filesystem::path& file,
   const toml::table root = files::parse_toml(file);
   files::TomlTable top(root, file.string(), "");
   TradeRequest request;
-  request.name = top.text("name", file.stem().string());
+  request.name = files::folder_name(top, file);
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   request.seed = static_cast<std::uint64_t>(top.integer("seed", 0, most, 1));
   files::TomlTable table = top.inside("trade", "trade");
@@ -216,7 +217,7 @@ std::vector<TradeRequest> read_trades(const std::filesystem::path& file,
     }
   }
   for (std::size_t i = 0; requests.size() > 1 && i < requests.size(); ++i)
-    requests[i].name += fmt::format("-{}", i);
+    requests[i].name = files::folder_name(top, file, fmt::format("-{}", i));
   return requests;
 }
 

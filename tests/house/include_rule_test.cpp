@@ -304,6 +304,29 @@ TEST(House, NoFolderIsTooFull) {
   for (const auto& [folder, count] : files_in) EXPECT_LE(count, 25) << folder;
 }
 
+// A file that is written by another way than OutputFile may be left in half, and its old content lost.
+TEST(House, FilesAreWrittenInOneWay) {
+  // OutputFile itself; the log of a child, whose output goes there as it comes; a shard's lock.
+  const std::set<std::string> known = {"harness/files/output_file.cpp",
+                                       "harness/process/subprocess.cpp",
+                                       "harness/shards/shard_folder.cpp"};
+  for (const SourceFile& file : files()) {
+    if (in(file.path, "tests")) continue;
+    bool writes = false;
+    for (const char* way : {"ofstream", "std::fstream", "freopen(", "mkstemp(", "O_CREAT",
+                            "write_to_file(", "write_to_stdio("}) {
+      writes = writes || file.text.find(way) != std::string::npos;
+    }
+    for (std::size_t at = 0; (at = file.text.find("fopen(", at)) != std::string::npos; ++at) {
+      const std::string call = file.text.substr(at, file.text.find(';', at) - at);
+      const std::size_t mode = call.rfind(", \"");
+      writes = writes || mode == std::string::npos || call[mode + 3] != 'r' ||
+               call.find('+', mode) != std::string::npos;
+    }
+    EXPECT_EQ(writes, known.contains(file.path)) << file.path;
+  }
+}
+
 // Returns true for the file by which an algorithm or a peer is entered in the registry.
 bool is_algorithm(const std::string& path) {
   if (in(path, "algorithms/peers")) return path.ends_with(".cpp");

@@ -33,7 +33,7 @@ class VolumeTree {
 template <class Tree>
 struct PlacedTrees {
   const Tree &a, &b;
-  CommonFrame frame;
+  const CommonFrame& frame;
   double slack;  // of boxes along its axes (metres)
 };
 

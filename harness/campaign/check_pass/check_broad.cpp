@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "harness/base/hash.h"
+#include "harness/campaign/check_pass/reproduction.h"
 #include "harness/grade/pair_check.h"
 #include "harness/measure/phases/broad_sampler.h"
 #include "harness/measure/run_delay.h"
@@ -87,20 +88,18 @@ std::string already_too_slow(const RunContext& context, const BroadPhaseEntry& e
   return "";
 }
 
-std::string write_frames(const RunContext& context, const measure::BlockInput& input,
-                         const std::string& name, std::size_t frame) {
-  if (context.reproductions.empty()) return "";
-  const std::filesystem::path file =
-      context.reproductions /
-      context.file_name(fmt::format("{}-{}-{}-frame-{}.csv", name, context.scene->name,
-                                    context.scene->size(), frame));
+void write_frames(const RunContext& context, const measure::BlockInput& input,
+                  const std::string& name, std::size_t frame, record::Departure& departure) {
   // The frame before is included, because an update may be the cause of the error.
   std::vector<std::vector<Aabb>> frames;
   if (frame > 0) frames.push_back(input.frames[frame - 1].boxes);
   frames.push_back(input.frames[frame].boxes);
-  std::filesystem::create_directories(context.reproductions);
-  scene::write_box_frames(frames, file);
-  return file.string();
+  // The scene's name comes last, because it may be cut.
+  write_reproduction(
+      context,
+      fmt::format("{}-{}-frame-{}-{}", name, context.scene->size(), frame, context.scene->name),
+      ".csv", [&](const std::filesystem::path& file) { scene::write_box_frames(frames, file); },
+      departure);
 }
 
 // Returns the seconds of a frame; a conversion that is timed again by itself is a part of the
@@ -233,7 +232,7 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
           context.departure(entry.info, entry.info.name, context.place(frame));
       departure.what = to_string(answer.faults);
       if (departure.known) departure.what += "; known defect: " + entry.info.known_defect;
-      departure.reproduction = write_frames(context, input, entry.info.name, frame);
+      write_frames(context, input, entry.info.name, frame, departure);
       context.findings->add(std::move(departure));
     }
     if (with_pairs) {

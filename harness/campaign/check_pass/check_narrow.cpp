@@ -4,16 +4,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <memory>
 
-#include "harness/base/error.h"
 #include "harness/campaign/check_pass/exact_answers.h"
+#include "harness/campaign/check_pass/reproduction.h"
 #include "harness/files/cases.h"
 #include "harness/files/concave/concave_cases.h"
+#include "harness/files/text_file.h"
 #include "harness/measure/phases/outcome_hash.h"
 
 namespace touchstone::campaign {
@@ -292,39 +290,34 @@ void NarrowCheck::report(const Piece& piece, const measure::NarrowChoice& choice
   if (choice.is_approximate()) departure.what += "; approximate by design";
   if (choice.warm) departure.what += "; warm: the file has the bodies, not what was in memory";
   if (!info.known_defect.empty()) departure.what += "; known defect: " + info.known_defect;
-  if (faults.worst_pair) departure.reproduction = write_case(piece, choice, *faults.worst_pair);
+  if (faults.worst_pair) write_case(piece, choice, *faults.worst_pair, departure);
   context_->findings->add(std::move(departure));
 }
 
-std::string NarrowCheck::write_case(const Piece& piece, const measure::NarrowChoice& choice,
-                                    std::size_t pair) const {
-  if (context_->reproductions.empty()) return "";
+void NarrowCheck::write_case(const Piece& piece, const measure::NarrowChoice& choice,
+                             std::size_t pair, record::Departure& departure) const {
   const std::uint32_t a = group(piece).first[pair];
   const std::uint32_t b = group(piece).second[pair];
   const std::vector<Pose>& poses = input_->frames[piece.frame].poses;
-  const std::string id = fmt::format("{}-frame-{}-{}-{}", context_->scene->name, piece.frame, a, b);
+  const std::string place = fmt::format("frame-{}-{}-{}", piece.frame, a, b);
+  const std::string id = fmt::format("{}-{}", context_->scene->name, place);
   const std::uint32_t shape_a = input_->shape_of[a], shape_b = input_->shape_of[b];
-  const std::string reproduction =
-      sets_[piece.set].is_concave()
-          ? files::to_json(files::ConcaveCase{id, input_->bodies[shape_a], input_->bodies[shape_b],
-                                              poses[a], poses[b], false})
-          : files::to_json(files::Case{id, input_->shapes[shape_a], input_->shapes[shape_b],
-                                       poses[a], poses[b]});
-  const std::filesystem::path file =
-      context_->reproductions /
-      context_->file_name(fmt::format("{}-{}{}-{}-{}-{}.jsonl", choice.name(),
-                                      to_string(choice.settings.scalar), choice.warm ? "-warm" : "",
-                                      to_string(sets_[piece.set].task),
-                                      sets_[piece.set].kind_name(), id));
-  std::filesystem::create_directories(context_->reproductions);
-  std::ofstream stream(file);
-  stream << reproduction << '\n';
-  stream.flush();
-  if (!stream) {
-    throw base::InputError(file.string(), 0,
-                           fmt::format("cannot be written: {}", std::strerror(errno)));
-  }
-  return file.string();
+  const auto write = [&](const std::filesystem::path& file) {
+    const std::string reproduction =
+        sets_[piece.set].is_concave()
+            ? files::to_json(files::ConcaveCase{id, input_->bodies[shape_a],
+                                                input_->bodies[shape_b], poses[a], poses[b], false})
+            : files::to_json(files::Case{id, input_->shapes[shape_a], input_->shapes[shape_b],
+                                         poses[a], poses[b]});
+    files::write_text(file, reproduction + "\n");
+  };
+  // The scene's name comes last, because it may be cut.
+  write_reproduction(
+      *context_,
+      fmt::format("{}-{}{}-{}-{}-{}-{}", choice.name(), to_string(choice.settings.scalar),
+                  choice.warm ? "-warm" : "", to_string(sets_[piece.set].task),
+                  sets_[piece.set].kind_name(), place, context_->scene->name),
+      ".jsonl", write, departure);
 }
 
 }  // namespace touchstone::campaign

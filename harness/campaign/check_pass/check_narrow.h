@@ -61,8 +61,8 @@ class NarrowCheck {
             const std::string& words);
   void report(const Piece& piece, const measure::NarrowChoice& choice,
               const grade::OutcomeFaults& faults);
-  std::string write_case(const Piece& piece, const measure::NarrowChoice& choice,
-                         std::size_t pair) const;
+  void write_case(const Piece& piece, const measure::NarrowChoice& choice, std::size_t pair,
+                  record::Departure& departure) const;
   record::RawRow row(const Piece& piece, const measure::NarrowChoice& choice) const;
 
   // A choice and the index of a set.

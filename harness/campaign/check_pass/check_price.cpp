@@ -27,7 +27,7 @@ struct Trial {
 
   explicit Trial(const RunContext& block) : context(block) {
     context.findings = &findings;
-    context.reproductions.clear();
+    context.results.clear();
   }
 };
 

@@ -16,11 +16,12 @@ namespace {
 
 enum : std::size_t { rows_file, cells_file, families_file };
 
-void do_all_jobs(const StressRequest& request, record::ResultFolder& folder) {
+// Returns true if an interrupt ended them.
+bool do_all_jobs(const StressRequest& request, record::ResultFolder& folder) {
   const base::UnitRange jobs = request.jobs(static_cast<std::int64_t>(request.job_count()));
-  if (folder.units() >= jobs.size()) return;
+  if (folder.units() >= jobs.size()) return false;
   base::Progress progress(static_cast<std::size_t>(jobs.size() - folder.units()));
-  do_jobs<CellResult>(
+  return do_jobs<CellResult>(
       folder, request, jobs,
       [&](std::size_t job, oracle::Oracle& oracle) { return do_stress_job(request, job, oracle); },
       [&](std::size_t job, const CellResult& result) {
@@ -55,12 +56,9 @@ record::ResultFolderPlan stress_folder(const StressRequest& request) {
 
 StressResult run_stress(const StressRequest& request) {
   record::ResultFolder folder(stress_folder(request));
-  do_all_jobs(request, folder);
   StressResult result;
-  if (is_interrupted(folder, request)) {
-    result.interrupted = true;
-    return result;
-  }
+  result.interrupted = do_all_jobs(request, folder);
+  if (result.interrupted) return result;
   folder.finish();
   if (request.part) return result;
   // Rows come from the files, so that a resumed sweep has the same result as a whole one.

@@ -19,7 +19,7 @@ struct StressResult {
   std::vector<FailureCase> failures;
   FamilyCounts families;
   std::vector<std::string> broken;  // see broken_promises
-  bool interrupted = false;         // a part that is not done
+  bool interrupted = false;         // rows are kept, and nothing is made of them
 };
 
 // Returns the folder that run_stress fills; it has a job for each cell and family.

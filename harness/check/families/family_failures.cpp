@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "harness/grade/failures/case_files.h"
 #include "harness/kinds/kind.h"
 
 namespace touchstone::check {
@@ -12,19 +13,20 @@ namespace touchstone::check {
 std::vector<FamilyFailure> write_family_failures(const CheckRequest& request,
                                                  const FamilyCounts& counts) {
   std::vector<FamilyFailure> failures;
-  const std::filesystem::path folder = request.out / "failures";
+  record::OwnFiles own(request.out);
   for (const auto& [key, count] : counts) {
     if (count.first_wrong < 0) continue;
     const kinds::Contestant& contestant = request.contestants[key.contestant];
     if (!contestant.promised && key.form != kinds::CaseForm::as_drawn) continue;
-    std::filesystem::create_directories(folder);
     const kinds::Family& family = *request.families[key.family];
     std::string name = fmt::format("{}-{}-{}", family.kind->name(), contestant.name(), family.name);
     if (key.form != kinds::CaseForm::as_drawn) name += "-" + std::string(to_string(key.form));
     std::ranges::replace(name, ' ', '-');
+    const std::filesystem::path stem = own.free_stem(grade::failures_folder, name);
     const auto first = static_cast<std::uint64_t>(count.first_wrong);
     const auto batch = family.kind->draw(family, {request.seed, first, 1});
-    failures.push_back({count, batch->write(contestant, 0, folder / name)});
+    failures.push_back({count, batch->write(contestant, 0, stem)});
+    own.note_stem(stem);
   }
   return failures;
 }

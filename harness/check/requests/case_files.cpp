@@ -10,6 +10,7 @@
 #include "harness/base/error.h"
 #include "harness/check/requests/select_cases.h"
 #include "harness/check/requests/select_narrow.h"
+#include "harness/files/folders/folder_name.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
 
@@ -146,7 +147,7 @@ CaseFile read_case_file(const std::filesystem::path& file) {
   const toml::table root = files::parse_toml(file);
   files::TomlTable top(root, file.string(), "");
   CaseFile read;
-  read.name = top.text("name", file.stem().string());
+  read.name = files::folder_name(top, file);
   const auto kind = std::ranges::find_if(kinds, [&](auto key) { return top.has(key); });
   if (kind == kinds.end()) {
     throw base::InputError(file.string(), 0, "expected a table [check], [stress] or [soak]");

@@ -13,19 +13,19 @@ namespace {
 
 CaseEnd end_of(const CheckRequest& request) {
   const std::unique_ptr<CheckResult> result = run_check(request);
-  if (request.part) return {.text = {}, .interrupted = result->interrupted};
+  if (request.part || result->interrupted) return {.text = {}, .interrupted = result->interrupted};
   return {summary_text(result->report, base::page_width()), !result->report.ours_wrong().empty()};
 }
 
 CaseEnd end_of(const StressRequest& request) {
   const StressResult result = run_stress(request);
-  if (request.part) return {.text = {}, .interrupted = result.interrupted};
+  if (request.part || result.interrupted) return {.text = {}, .interrupted = result.interrupted};
   return {stress_text(request, result, base::page_width()), !result.broken.empty()};
 }
 
 CaseEnd end_of(const SoakRequest& request) {
   const SoakResult result = run_soak(request);
-  if (request.part) return {.text = {}, .interrupted = result.interrupted};
+  if (request.part || result.interrupted) return {.text = {}, .interrupted = result.interrupted};
   return {soak_text(request, result, base::page_width()), result.ours_are_wrong(request)};
 }
 

@@ -8,7 +8,7 @@
 namespace touchstone::check {
 
 struct CaseEnd {
-  std::string text;         // for the terminal; empty for a part
+  std::string text;         // for the terminal; empty for a part, and after an interrupt
   bool ours_wrong = false;  // false for a part
   bool interrupted = false;
 };

@@ -13,6 +13,7 @@
 #include "harness/check/soak/soak_rows.h"
 #include "harness/files/text_file.h"
 #include "harness/record/machine.h"
+#include "harness/record/own_files.h"
 
 namespace touchstone::check {
 namespace {
@@ -33,11 +34,8 @@ class Soak {
   SoakResult run() {
     const base::UnitRange jobs = request_.jobs(jobs_of(request_));
     result_.drawn = folder_.units() * cases_a_soak_job;
-    if (folder_.units() < jobs.size()) do_all(jobs);
-    if (is_interrupted(folder_, request_)) {
-      result_.interrupted = true;
-      return result_;
-    }
+    if (folder_.units() < jobs.size()) result_.interrupted = do_all(jobs);
+    if (result_.interrupted) return result_;
     if (!request_.part) {
       write_summary();
       write_cases();
@@ -48,12 +46,13 @@ class Soak {
   }
 
  private:
-  void do_all(base::UnitRange jobs) {
+  // Returns true if an interrupt ended them.
+  bool do_all(base::UnitRange jobs) {
     const std::int64_t verdicts = std::min(jobs.size() * cases_a_soak_job, request_.pairs);
     base::Progress progress(1);
     progress.start(fmt::format("{} verdicts", verdicts));
     base::Stopwatch since_written;
-    do_jobs<SoakJobResult>(
+    return do_jobs<SoakJobResult>(
         folder_, request_, jobs,
         [&](std::size_t job, oracle::Oracle& oracle) { return do_soak_job(request_, job, oracle); },
         [&](std::size_t job, const SoakJobResult& result) {
@@ -105,15 +104,19 @@ class Soak {
 
   // Writes the first wrong answer of each count.
   void write_cases() const {
+    record::OwnFiles own(request_.out);
+    own.remove([](const std::string&) { return true; });
     for (const auto& [key, count] : result_.counts) {
       const auto& [entry, scalar, regime] = key;
       if (count.first_wrong < 0) continue;
       const files::Case c = make(*request_.regimes[regime], request_.seed,
                                  static_cast<std::uint64_t>(count.first_wrong));
-      files::write_text(
-          folder_.path(fmt::format("{}-{}-{}.jsonl", request_.narrow[entry]->info.name,
-                                   to_string(scalar), request_.regimes[regime]->name)),
-          files::to_json(c) + "\n");
+      std::filesystem::path file =
+          own.free_stem("", fmt::format("{}-{}-{}", request_.narrow[entry]->info.name,
+                                        to_string(scalar), request_.regimes[regime]->name));
+      file += ".jsonl";
+      own.note({file});
+      files::write_text(file, files::to_json(c) + "\n");
     }
   }
 
@@ -130,7 +133,7 @@ record::ResultFolderPlan soak_folder(const SoakRequest& request) {
   auto plan = job_folder(request, "soak", regimes_fact(request),
                          {{"jobs.csv", record::header_of<SoakJobRow>(request.subjects())},
                           {"families.csv", record::header_of<FamilyCount>(request.subjects())}});
-  plan.removed = {summary_file};
+  plan.made = {summary_file};
   return plan;
 }
 

@@ -47,7 +47,7 @@ struct SoakResult {
   FamilyCounts families;
   std::vector<FamilyFailure> failures;  // of families
   std::int64_t drawn = 0;    // pairs of all kinds, whether an algorithm takes them or not
-  bool interrupted = false;  // a part that is not done
+  bool interrupted = false;  // rows are kept, and nothing is made of them
 
   bool ours_are_wrong(const SoakRequest& request) const;
 };

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 
+#include "harness/commands/program.h"
 #include "harness/process/subprocess.h"
 
 namespace touchstone::commands {
@@ -18,10 +19,8 @@ namespace {
 void run_report(const std::filesystem::path& folder) {
   const std::filesystem::path log = folder / "report.txt";
   const std::string page = (folder / "report.html").string();
-  const std::filesystem::path program =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "touchstone_more";
-  const int status =
-      process::run_and_wait(program.string(), {"report", folder.string(), "--out", page}, log);
+  const int status = process::run_and_wait(
+      more_program(), {more_first_word(), "report", folder.string(), "--out", page}, log);
   if (status != 0) {
     std::ifstream stream(log);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};

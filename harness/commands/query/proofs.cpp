@@ -16,28 +16,28 @@ constexpr int most_told = 1000;
 
 }  // namespace
 
-SavedCertificates::SavedCertificates(const std::string& file)
-    : file_(file), stream_(file, std::ios::binary) {}
+SavedCertificates::SavedCertificates(const std::string& file) : output_(file) {}
 
-void SavedCertificates::head(const std::string& line) { stream_ << line << '\n'; }
+void SavedCertificates::head(const std::string& line) { output_.write(line + "\n"); }
 
 void SavedCertificates::add_each(std::size_t items, double seconds,
                                  const std::function<process::MakeLine()>& setup,
                                  const std::function<std::string(std::size_t)>& name_of) {
   const process::IsolationLimits limits = {
       .item_seconds = seconds, .setup_seconds = std::numeric_limits<double>::infinity()};
-  const process::LinesReport report = process::isolated_lines(items, limits, setup, stream_);
+  const process::LinesReport report = process::isolated_lines(
+      items, limits, setup, [&](const std::string& line) { output_.write(line); });
   count_ += report.lines;
   if (!report.failures.empty() && report.failures.back().in_setup) {
-    throw base::InputError(file_, 0, "no more can be proven: " + report.failures.back().reason());
+    throw base::InputError(output_.path().string(), 0,
+                           "no more can be proven: " + report.failures.back().reason());
   }
   print_failures("certificates", report.failures, name_of);
 }
 
 void SavedCertificates::close() {
-  stream_.close();
-  if (!stream_) throw base::InputError(file_, 0, "cannot be written");
-  fmt::print("{} certificates in {}\n", count_, file_);
+  output_.close();
+  fmt::print("{} certificates in {}\n", count_, output_.path().string());
 }
 
 void Verdicts::add(std::int64_t line, const std::string& name, const std::string& why) {

@@ -3,15 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <string>
 
+#include "harness/files/output_file.h"
 #include "harness/process/isolated_lines.h"
 
 namespace touchstone::commands {
 
-// Writes certificates, one a line.
+// Writes certificates, one a line. The file is whole after `close`, and its old content stays without.
 class SavedCertificates {
  public:
   explicit SavedCertificates(const std::string& file);
@@ -27,8 +27,7 @@ class SavedCertificates {
   void close();
 
  private:
-  std::string file_;
-  std::ofstream stream_;
+  files::OutputFile output_;
   std::int64_t count_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "harness/base/shell_word.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/shards/status.h"
@@ -31,7 +32,7 @@ int merge(const MergeOptions& options) {
       fmt::print(stderr, "touchstone: and {} more\n", result.missing.size() - most_lines);
     fmt::print(stderr, "touchstone: {} shards are missing{}; to run them: {} {}\n",
                result.missing.size(), result.written ? "" : ", and nothing was written",
-               (plan / "slurm.sh").string(), result.missing_list);
+               base::shell_word((plan / "slurm.sh").string()), result.missing_list);
     if (!result.written) return exit_bad_request;
   }
   fmt::print("{}\n{} in {}\n", result.merged.text,

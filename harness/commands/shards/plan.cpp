@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "harness/base/shell_word.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/shards/shard_plan.h"
@@ -27,14 +28,15 @@ int plan(PlanOptions& options) {
   fmt::print("{} ({}): {} units in {} shards; about {:.3g} h in all, {:.3g} h the longest shard\n",
              plan.name, plan.kind, plan.shards.back().units.end, plan.shards.size(), total / 3600,
              longest / 3600);
-  const std::string folder = plan.folder.string();
+  const std::string folder = base::shell_word(plan.folder.string());
   fmt::print(
-      "on a cluster:       {0}/slurm.sh\n"
-      "on some machines:   {0}/parallel.sh\n"
+      "on a cluster:       {1}\n"
+      "on some machines:   {2}\n"
       "one shard:          touchstone run --plan {0} --shard 0\n"
       "how far it is:      touchstone status {0}\n"
       "all results in one: touchstone merge {0} --out RESULTS\n",
-      folder);
+      folder, base::shell_word((plan.folder / "slurm.sh").string()),
+      base::shell_word((plan.folder / "parallel.sh").string()));
   return exit_done;
 }
 

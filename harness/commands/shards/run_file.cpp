@@ -74,6 +74,7 @@ int run_cases(const RunFileOptions& options) {
   file.common().resume = options.resume;
   file.common().workers = options.threads;
   const check::CaseEnd end = check::run_case_file(file);
+  if (end.interrupted) return end_interrupted();
   fmt::print("{}\nRows in {}\n", end.text, folder.string());
   if (options.with_page) make_page(folder);
   return end.ours_wrong ? exit_measured_wrong : exit_done;
@@ -85,10 +86,7 @@ int run_cells(const RunFileOptions& options) {
   const cells::CellRunResult result =
       cells::run_cells(request, folder, record::resume_or_overwrite(options.resume),
                        [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
-  if (result.interrupted) {
-    fmt::print(stderr, "touchstone: interrupted; whole cells are kept, and --resume goes on\n");
-    return exit_bad_request;
-  }
+  if (result.interrupted) return end_interrupted();
   fmt::print("{}Tables in {}\n", stats::write_cell_tables(folder, request.name, folder),
              folder.string());
   if (options.with_page) make_page(folder);

@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "harness/files/folders/folder_name.h"
 #include "harness/files/toml_table.h"
 
 namespace touchstone::trade {
@@ -21,11 +22,8 @@ AdviceTask read_task(files::TomlTable& table, const std::filesystem::path& folde
     table.fail("file", fmt::format("found \"{}\", which is no file; expected a scene",
                                    request.scene.string()));
   }
-  task.name = table.text("name", request.scene.stem().string());
-  if (task.name.empty() || task.name.find('/') != std::string::npos || task.name[0] == '.') {
-    table.fail("name", fmt::format("found \"{}\"; expected a name for a folder", task.name));
-  }
-  request.name = task.name + "-advice";
+  task.name = files::folder_name(table, request.scene);
+  request.name = files::folder_name(table, request.scene, "-advice");
   request.task =
       static_cast<Task>(table.choice("task", traded_tasks, static_cast<std::size_t>(usual.task)));
   request.measure = static_cast<ErrorMeasure>(table.choice(

@@ -1,4 +1,5 @@
 // `touchstone report` puts a bundle into the page. It is zlib-compressed JSON, as base64.
+import type { Slices } from "./base/slices";
 
 export interface Bundle {
   format: 1;
@@ -92,6 +93,7 @@ export interface Recording {
   frames_of_scene: number; // those beyond `frames` were left out
   shapes: ShapeView[];
   shape_of: number[]; // each body's place in `shapes`
+  fixed: number[]; // the bodies that stay where they are in all frames: the scene says that they do not move
   // Frames are float32 (frames_of_floats). Each body has a translation, metres, and a quaternion (w, x, y, z).
   poses: string;
   // Frames are float32. Each body has the least and the greatest corner of its box. An absent body has an empty
@@ -123,21 +125,42 @@ function bytes_of(base64: string): Uint8Array<ArrayBuffer> {
   return bytes;
 }
 
+const letters_at_once = 1 << 17; // four letters are three bytes
+
+async function many_bytes_of(base64: string, slices: Slices): Promise<Uint8Array<ArrayBuffer>> {
+  const ending = base64.endsWith("==") ? 2 : base64.endsWith("=") ? 1 : 0;
+  const bytes = new Uint8Array((3 * base64.length) / 4 - ending);
+  for (let from = 0; from < base64.length; from += letters_at_once) {
+    bytes.set(bytes_of(base64.slice(from, from + letters_at_once)), (3 * from) / 4);
+    await slices.rest(from, base64.length);
+  }
+  return bytes;
+}
+
 export const floats = (base64: string): Float32Array => new Float32Array(bytes_of(base64).buffer);
 
 // All frames have as many numbers. From the second on, the bits of each are those of an exclusive or with the frame
 // before, so that what does not move takes no space.
-export function frames_of_floats(base64: string, in_a_frame: number): Float32Array {
-  const words = new Uint32Array(bytes_of(base64).buffer);
-  for (let i = in_a_frame; i < words.length; ++i) words[i]! ^= words[i - in_a_frame]!;
+export async function frames_of_floats(
+  base64: string,
+  in_a_frame: number,
+  slices: Slices,
+): Promise<Float32Array> {
+  const words = new Uint32Array((await many_bytes_of(base64, slices)).buffer);
+  let done = in_a_frame;
+  while (done < words.length) {
+    const end = Math.min(done + (1 << 17), words.length);
+    for (; done < end; ++done) words[done]! ^= words[done - in_a_frame]!;
+    await slices.rest(done, words.length);
+  }
   return new Float32Array(words.buffer);
 }
 export const doubles = (base64: string): Float64Array => new Float64Array(bytes_of(base64).buffer);
 export const indices = (base64: string): Uint32Array => new Uint32Array(bytes_of(base64).buffer);
 export const octets = (base64: string): Uint8Array => bytes_of(base64);
 
-export async function read_bundle(element: HTMLElement): Promise<Bundle> {
-  const packed = bytes_of((element.textContent ?? "").trim());
+export async function read_bundle(element: HTMLElement, slices: Slices): Promise<Bundle> {
+  const packed = await many_bytes_of((element.textContent ?? "").trim(), slices);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const bundle = (await new Response(stream).json()) as Bundle;
   if (bundle.format !== 1) throw new Error("the page and its data are of different versions");

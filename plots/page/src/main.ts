@@ -1,6 +1,7 @@
 // The script builds the page from the bundle that is in it.
 import { show_address } from "./base/anchors";
 import { make } from "./base/dom";
+import { Slices } from "./base/slices";
 import { read_bundle } from "./bundle";
 import { playback } from "./scene/playback";
 import { compare } from "./sections/compare";
@@ -20,20 +21,35 @@ function contents(sections: HTMLElement[]): HTMLElement {
 }
 
 async function build(page: HTMLElement): Promise<void> {
-  const bundle = await read_bundle(document.getElementById("bundle")!);
+  const slices = new Slices((text) => {
+    if (text) page.firstElementChild!.replaceChildren(`${text} …`);
+  });
+  await slices.begin("Reading the results");
+  const bundle = await read_bundle(document.getElementById("bundle")!, slices);
   const folders = bundle.results.map((results) => new Folder(results));
   const names = [
     ...folders.map((folder) => folder.name),
     ...bundle.scenes.map((scene) => scene.name),
   ];
   document.title = `Touchstone: ${names.join(", ")}`;
-  const sections = [
-    summary(bundle, folders),
-    compare(folders),
-    ...folders.flatMap((folder) => [speed(folder), trade(folder), verdicts(folder), files(folder)]),
-    ...bundle.scenes.map(playback),
-  ].filter((each) => each !== null);
-  page.replaceChildren(make("h1", {}, "Touchstone"), contents(sections), ...sections);
+  const makers: (() => HTMLElement | null)[] = [
+    () => summary(bundle, folders),
+    () => compare(folders),
+    ...folders.flatMap((folder) => [speed, trade, verdicts, files].map((of) => () => of(folder))),
+    ...bundle.scenes.map((scene) => () => playback(scene)),
+  ];
+  const sections: HTMLElement[] = [];
+  await slices.begin("Drawing the results");
+  for (const maker of makers) {
+    const made = maker();
+    if (!made) continue;
+    // Each section is laid out by itself: all of them at once would hold the page for long.
+    if (sections.length === 0) page.replaceChildren(make("h1", {}, "Touchstone"), made);
+    else page.append(made);
+    sections.push(made);
+    await slices.begin("");
+  }
+  page.firstElementChild?.after(contents(sections));
   document.documentElement.dataset["ready"] = "yes";
   window.addEventListener("hashchange", show_address);
   show_address();

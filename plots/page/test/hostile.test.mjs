@@ -54,6 +54,7 @@ test("names with tags are text", () =>
       assert.match(await page.locator("h2").nth(1).textContent(), /<script>alert/);
       await page.locator("details.pair > summary").click();
       await page.getByText("Open the scene").click();
+      await page.locator("section[id$=playback] canvas").waitFor();
     },
   ));
 
@@ -129,8 +130,10 @@ test("pairs and scenes without numbers", () =>
     ),
     async (page) => {
       await page.locator("details.pair > summary").click();
-      for (const _ of await page.getByText("Open the scene").all())
-        await page.getByText("Open the scene").first().click();
+      for (const scene of await page.locator("section[id$=playback]").all()) {
+        await scene.getByText("Open the scene").click();
+        await scene.locator("canvas").waitFor();
+      }
       assert.equal(await page.locator("canvas").count(), 2);
     },
   ));

@@ -82,7 +82,7 @@ function differences(numbers, in_a_frame) {
 }
 
 // Body 2 is absent from frame 1 on; bodies 0 and 1 are close together, and the algorithms differ on them.
-export function recording(frames, bodies = 3, name = "made up") {
+export function recording(frames, bodies = 3, name = "made up", distance = 0.2) {
   const poses = new Float32Array(frames * bodies * 7),
     boxes = new Float32Array(frames * bodies * 6);
   const pairs = [],
@@ -100,7 +100,7 @@ export function recording(frames, bodies = 3, name = "made up") {
     pairs.push({
       bodies: base64(Uint32Array.of(0, 1)),
       verdicts: base64(Uint8Array.of(0, 2)),
-      distances: base64(Float64Array.of(0.2)),
+      distances: base64(Float64Array.of(distance)),
     });
     structure.push({
       boxes: base64(Float32Array.of(0, 0, 0, 30, 30, 30)),
@@ -120,6 +120,7 @@ export function recording(frames, bodies = 3, name = "made up") {
       { type: "box", half_extents: [0.3, 0.3, 0.3] },
       { type: "sphere", radius: 0.35 },
     ],
+    fixed: [],
     shape_of: Array.from({ length: bodies }, (_, i) => i % 2),
     poses: base64(differences(poses, 7 * bodies)),
     boxes: base64(differences(boxes, 6 * bodies)),

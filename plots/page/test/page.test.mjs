@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { boxes_alone, deep_pair, pair, raw_csv, recording, times_csv } from "./made_up.mjs";
-import { bundle_of, fill, folder_of, launch, open } from "./pages.mjs";
+import { bundle_of, fill, folder_of, launch, open, until } from "./pages.mjs";
 
 let browser, file;
 
@@ -34,8 +34,15 @@ before(async () => {
     },
     [pair, deep_pair],
   );
+  const scenes = [
+    recording(10),
+    boxes_alone(4),
+    recording(4, 2000, "large"),
+    { ...recording(2, 3, "fixed"), fixed: [0] },
+    recording(2, 3, "near", 1e-14),
+  ];
   const out = join(await mkdtemp(join(tmpdir(), "page-")), "page.html");
-  file = await fill(process.env.PAGE, out, bundle_of([results], [recording(10), boxes_alone(4)]));
+  file = await fill(process.env.PAGE, out, bundle_of([results], scenes));
 });
 after(() => browser.close());
 
@@ -80,7 +87,10 @@ test("tables sort by number, filter, and show all", () =>
     const grid = page.locator("#made-work");
     assert.equal((await column(page, "work.csv", "shuffled")).length, 200);
     await grid.getByText("Show all").click();
-    assert.equal((await column(page, "work.csv", "shuffled")).length, 500);
+    await until(
+      async () => (await column(page, "work.csv", "shuffled")).length === 500,
+      "all rows",
+    );
     const sort = grid.locator('th[data-column="shuffled"] button');
     await sort.focus();
     await page.keyboard.press("Enter");
@@ -107,7 +117,8 @@ test("hovering tells, and clicking shows the samples", () =>
     const dot = chart.locator('g[aria-label="dot"] path').first();
     await dot.scrollIntoViewIfNeeded();
     await dot.hover({ force: true });
-    assert.match(await chart.locator('g[aria-label="tip"]').textContent(), /bodies/);
+    const tip = chart.locator('g[aria-label="tip"]');
+    await until(async () => /bodies/.test(await tip.textContent()), "a tip");
     await page.locator('table[data-file="times.csv"] tbody tr').first().focus();
     await page.keyboard.press("Enter");
     const samples = page.locator("#made-samples");
@@ -151,13 +162,11 @@ test("a departure leads to its pair, which is drawn", () =>
     const picture = () => view.locator("canvas").screenshot();
     const whole = await picture();
     await view.getByText("show the gap").click();
-    await page.waitForTimeout(200);
+    await until(async () => !(await picture()).equals(whole), "a picture of the gap");
     const enlarged = await picture();
-    assert.notDeepEqual(enlarged, whole);
     await view.locator("canvas").focus();
     await page.keyboard.press("ArrowLeft");
-    await page.waitForTimeout(200);
-    assert.notDeepEqual(await picture(), enlarged);
+    await until(async () => !(await picture()).equals(enlarged), "a view from another side");
     assert.match(await view.textContent(), /touchstone query/);
   }));
 
@@ -205,13 +214,94 @@ test("a scene plays, steps, and shows where two algorithms differ", () =>
     await boxes.locator("canvas").waitFor();
   }));
 
+// A page that works for long at a time neither says how far it is, nor answers.
+test("a scene opens in slices, between which the page answers", () =>
+  on_page(async (page) => {
+    const seen = await page.evaluate(async () => {
+      const section = document.getElementById("large-playback");
+      const answers = [],
+        told = new Set();
+      const watcher = new MutationObserver(() => {
+        const status = section.querySelector('[role="status"]');
+        if (status) told.add(status.textContent.replace(/, .*/, ""));
+      });
+      watcher.observe(section, { childList: true, subtree: true, characterData: true });
+      [...section.querySelectorAll("button")].find((each) => each.textContent === "Open the scene").click();
+      while (!section.querySelector("canvas")) {
+        answers.push(section.querySelector("button").textContent);
+        await new Promise((resolve) => setTimeout(resolve));
+      }
+      return { answers, told: [...told] };
+    });
+    assert.deepEqual(seen.told, [
+      "Opening: reading poses",
+      "Opening: reading boxes",
+      "Opening: making a picture",
+      "Opening: making bodies",
+      "Opening: making shaders",
+      "Opening: making controls",
+    ]);
+    assert.ok(seen.answers.length > 0 && seen.answers.every((each) => each === "Close the scene"));
+  }));
+
+test("a scene that is closed while it opens is not drawn", () =>
+  on_page(async (page) => {
+    const scene = page.locator("#large-playback");
+    await page.evaluate(() => {
+      const press = (text) =>
+        [...document.querySelectorAll("#large-playback button")].find((each) => each.textContent === text).click();
+      press("Open the scene");
+      press("Close the scene");
+      press("Open the scene");
+    });
+    await scene.locator("canvas").waitFor();
+    assert.equal(await page.locator("canvas").count(), 1);
+    await scene.getByText("Close the scene").click();
+    await scene.getByText("Open the scene").waitFor();
+    assert.equal(await page.locator("canvas").count(), 0);
+  }));
+
+// The states of bodies 0 and 1, which overlap, and of 2, by the colours of the middle of the picture.
+test("what touches fixed bodies alone is not coloured, unless that is asked for", () =>
+  on_page(async (page) => {
+    const scene = page.locator("#fixed-playback");
+    await scene.getByText("Open the scene").click();
+    const picture = () => scene.locator("canvas").screenshot();
+    const points = () => scene.locator("canvas").evaluate((canvas) => canvas.width / canvas.clientWidth);
+    await until(async () => (await points()) === 2, "a fine picture");
+    assert.match(await scene.textContent(), /Red and dotted: it overlaps a body that is not fixed/);
+    const without = await picture();
+    await scene.getByLabel("contacts with fixed bodies").check();
+    await until(async () => !(await picture()).equals(without), "a contact");
+    assert.match(await scene.textContent(), /Red and dotted: it overlaps another body/);
+    await scene.getByLabel("contacts with fixed bodies").uncheck();
+    await until(async () => (await picture()).equals(without), "no contact");
+    await scene.getByLabel("Colours").selectOption("red, green, blue");
+    await until(async () => !(await picture()).equals(without), "other colours");
+    assert.match(await scene.textContent(), /Blue and dotted: it overlaps a body that is not fixed/);
+  }));
+
+test("answers that differ within the resolution are not counted as differing", () =>
+  on_page(async (page) => {
+    const scene = page.locator("#near-playback");
+    await scene.getByText("Open the scene").click();
+    await scene.locator("canvas").waitFor();
+    const text = await scene.textContent();
+    assert.match(text, /certified and gjk differ on 0 of them\. On 1 their .* within the resolution/);
+    assert.equal(await scene.locator("tr.pickable").count(), 0);
+    await scene.getByLabel("list pairs within the resolution").check();
+    assert.equal(await scene.locator("tr.pickable").count(), 1);
+    await scene.getByText("next difference").click();
+    await scene.getByText("they differ in no frame").waitFor();
+  }));
+
 test("a body is picked by mouse", () =>
   on_page(async (page) => {
     for (const name of ["made-up", "boxes-alone"]) {
       const scene = page.locator(`#${name}-playback`);
       await scene.getByText("Open the scene").click();
       await scene.locator("canvas").click();
-      assert.equal(await scene.getByLabel("Body").inputValue(), "1");
+      await until(async () => (await scene.getByLabel("Body").inputValue()) === "1", "a choice");
     }
   }));
 
@@ -220,7 +310,7 @@ test("a scene that plays too slowly is drawn with fewer points, until it stands 
     const scene = page.locator("#made-up-playback");
     await scene.getByText("Open the scene").click();
     const points = () => scene.locator("canvas").evaluate((canvas) => canvas.width / canvas.clientWidth);
-    assert.equal(await points(), 1);
+    await until(async () => (await points()) === 2, "a fine picture");
     const picture = () => scene.locator("canvas").screenshot();
     const still = await picture();
     await page.evaluate(() => {
@@ -239,10 +329,47 @@ test("a scene that plays too slowly is drawn with fewer points, until it stands 
     });
     await scene.getByText("Pause", { exact: true }).click();
     await page.evaluate(() => (window.slow = false));
-    assert.equal(await points(), 1);
     await scene.getByLabel("frame", { exact: true }).fill("0");
-    await page.waitForTimeout(300);
-    assert.deepEqual(await picture(), still);
+    await until(
+      async () => (await points()) === 2 && (await picture()).equals(still),
+      "the same picture, as fine as before",
+    );
+  }));
+
+test("on a phone the switches are folded, and the lines have their names", () =>
+  on_page(
+    async (page) => {
+      const curves = page.locator("#made-curves");
+      assert.equal(await curves.getByLabel("their-tree").isVisible(), false);
+      for (const name of ["tree", "their-tree"]) {
+        const box = await curves.locator("svg text", { hasText: new RegExp(`^${name}$`) }).boundingBox();
+        assert.ok(box.x + box.width <= 390, `${name} ends at ${box.x + box.width}`);
+      }
+      await curves.getByText("choose among 2").click();
+      await curves.getByLabel("their-tree").uncheck();
+      assert.equal(await curves.locator('g[aria-label="line"] path').count(), 1);
+    },
+    "",
+    { viewport: { width: 390, height: 800 } },
+  ));
+
+test("columns that say nothing are left out, until the file is shown as it stands", () =>
+  on_page(async (page) => {
+    const grid = page.locator("#made-times");
+    const columns = () => grid.locator("th[data-column]").evaluateAll((heads) => heads.map((head) => head.dataset.column));
+    assert.deepEqual(await columns(), [
+      "bodies", "algorithm", "origin", "seconds", "seconds_low", "seconds_high", "scene_hash", "update", "find_pairs",
+    ]);
+    assert.match(await grid.textContent(), /The same in all rows: scene grid, threads 1, .*Empty in all rows: task, pair kind/);
+    const low = grid.locator('tbody tr').first().locator("td").nth(4);
+    assert.equal(await low.textContent(), "9 µs");
+    assert.equal(await low.getAttribute("title"), "0.000009");
+    await grid.getByLabel("as in the file").check();
+    assert.equal((await columns()).length, 20);
+    assert.ok((await grid.locator("tbody tr").first().locator("td").allTextContents()).includes("0.000009"));
+    const downloading = page.waitForEvent("download");
+    await grid.getByText("Download").click();
+    assert.equal((await downloading).suggestedFilename(), "times.csv");
   }));
 
 test("narrow, dark and printed", async () => {

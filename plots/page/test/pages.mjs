@@ -7,8 +7,22 @@ import { chromium } from "playwright-core";
 export const browser_file = process.env.CHROMIUM ?? "/usr/bin/chromium";
 export const has_browser = () => existsSync(browser_file);
 
+// The one limit of all that the tests wait for. It is there for what never comes: no test depends on the machine's
+// speed.
+export const longest_wait = 20 * 60_000;
+
+// Waits until a state holds.
+export async function until(holds, what) {
+  const end = Date.now() + longest_wait;
+  while (!(await holds())) {
+    if (Date.now() > end) throw new Error(`it never came: ${what}`);
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+}
+
 export const launch = () =>
   chromium.launch({
+    timeout: longest_wait,
     executablePath: browser_file,
     args: [
       "--no-sandbox",
@@ -21,6 +35,7 @@ export const launch = () =>
 // Opens a page from the disk. `complaints` collects all that the browser says about it.
 export async function open(browser, file, hash = "", options = {}) {
   const page = await browser.newPage({ viewport: { width: 1200, height: 900 }, ...options });
+  page.setDefaultTimeout(longest_wait);
   const complaints = [];
   page.on("console", (message) => {
     // Drawing in software is slow, which the browser mentions.
@@ -37,9 +52,7 @@ export async function open(browser, file, hash = "", options = {}) {
     dialog.dismiss();
   });
   await page.goto(`file://${file}${hash}`);
-  await page.waitForFunction(() => document.documentElement.dataset.ready, null, {
-    timeout: 30000,
-  });
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
   return { page, complaints };
 }
 

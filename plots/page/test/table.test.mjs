@@ -1,9 +1,11 @@
 // The page's reader of CSV files, without a browser.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { readFile } from "node:fs/promises";
 import { build } from "esbuild";
 import { fileURLToPath } from "node:url";
 import { csv_rows } from "./csv.mjs";
+import { pair } from "./made_up.mjs";
 
 async function sources(file) {
   const { outputFiles } = await build({
@@ -16,8 +18,9 @@ async function sources(file) {
     `data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`
   );
 }
+const root = new URL("../../../", import.meta.url);
 const { Table } = await sources("tables/table.ts");
-const { number_of, time_text } = await sources("base/numbers.ts");
+const { field_text, number_of, time_text } = await sources("base/numbers.ts");
 
 const fields = (table) =>
   table.rows.map((_, row) => table.columns.map((_, column) => table.field(row, column)));
@@ -59,4 +62,55 @@ test("numbers as C++ writes them", () => {
   assert.equal(number_of("4.3e-16"), 4.3e-16);
   assert.equal(time_text(NaN), "–");
   assert.equal(time_text(0.00123), "1.23 ms");
+});
+
+test("the page and `touchstone draw` have the same colours", async () => {
+  const { palettes } = await sources("scene/body_material.ts");
+  const source = await readFile(new URL("harness/draw/scene_picture.cpp", root), "utf8");
+  const of_state = (state) => {
+    const found = new RegExp(`BodyState::${state}: return \\{(.*)\\}`).exec(source);
+    return found[1].split(", ").reduce((colour, part) => 256 * colour + Number(part), 0);
+  };
+  assert.deepEqual(palettes[0].colours, ["apart", "possible", "overlapping"].map(of_state));
+});
+
+test("the resolution is that of the program", async () => {
+  const { resolution_of } = await sources("scene/resolution.ts");
+  const ball = { type: "sphere", radius: 0.4 };
+  const corner = [0.5, 1, 1.5];
+  assert.equal(resolution_of(ball, { type: "halfspace" }), 2 ** -45);
+  assert.equal(resolution_of(ball, { type: "box", half_extents: corner }), 4 * 2 ** -45);
+  assert.equal(resolution_of({ type: "hull", vertices: [[0, 0, 0], corner] }, ball), 2 * 2 ** -45);
+});
+
+test("fields have three digits, and a unit where they are times", () => {
+  for (const [text, is_time, short] of [
+    ["5.19453768115942e-05", true, "51.9 µs"],
+    ["0", true, "0 s"],
+    ["1.0199296201186856", false, "1.02"],
+    ["-1.0199296201186856e-12", false, "−1.02e−12"],
+    ["1234567890123", false, "1234567890123"],
+    ["0.97", false, "0.97"],
+    ["", true, ""],
+    ["inf", true, "inf"],
+    ["nan", false, "nan"],
+  ])
+    assert.equal(field_text(text, is_time), short);
+});
+
+test("a pair is one entry, with its wrong answers first", async () => {
+  const { pairs_of, pair_text } = await sources("tables/pairs.ts");
+  const right = { ...pair.answers[0], algorithm: "sat", answer: "separated", grade: "right", why: "" };
+  const inexact = { ...right, algorithm: "mpr", grade: "approximate" };
+  const one = { ...pair, answers: [right, inexact, pair.answers[0]] };
+  const other = { ...one, source: "reproductions/block-0/other.jsonl", about: "other" };
+  const apart = { ...pair, id: "another", b: { ...pair.b, translation: [2, 0, 0] }, answers: [] };
+  const pairs = pairs_of([one, other, apart]);
+  assert.equal(pairs.length, 2);
+  assert.deepEqual(pairs[0].sources, [pair.source, other.source]);
+  assert.deepEqual(pairs[0].answers.map(({ algorithm }) => algorithm), ["gjk", "mpr", "sat"]);
+  assert.equal(
+    pair_text(pairs[0]),
+    "a thin gap: separated by 1.00e−9 m; gjk says overlapping; mpr is wrong in its numbers (approximate by design)",
+  );
 });

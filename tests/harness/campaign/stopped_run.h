@@ -1,14 +1,14 @@
 // A finished run that is cut as if it had been killed.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
+
+#include "tests/harness/stopped_folder.h"
 
 namespace touchstone {
 
@@ -23,13 +23,10 @@ inline std::size_t end_of_first_line(const std::string& text) { return text.find
 // Cuts raw.csv after `bytes`; the last whole unit ends after `whole` bytes of it. departures.csv is
 // that of a run without any until then.
 inline void stop_run(const std::filesystem::path& folder, std::size_t whole, std::size_t bytes) {
-  std::string machine = whole_file(folder / "machine.csv");
-  machine.replace(machine.find("finished,yes"), 12, "finished,no");
-  std::ofstream(folder / "machine.csv") << machine;
+  stop_folder(folder, 1,
+              {{"raw.csv", whole},
+               {"departures.csv", end_of_first_line(whole_file(folder / "departures.csv"))}});
   std::filesystem::resize_file(folder / "raw.csv", bytes);
-  std::ofstream(folder / "progress.csv")
-      << fmt::format("name,value\nunits,1\nraw.csv,{}\ndepartures.csv,{}\n", whole,
-                     end_of_first_line(whole_file(folder / "departures.csv")));
 }
 
 // Stops it in the middle of a line, after about this part of raw.csv. The last whole unit is the

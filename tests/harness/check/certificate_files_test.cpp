@@ -3,8 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 
 #include "tests/harness/check/planted.h"
 #include "tests/harness/input_fault.h"
@@ -52,6 +56,29 @@ TEST(CertificateFiles, WhatIsSavedIsVerified) {
   EXPECT_EQ(found.refused_count, 2);
   EXPECT_THAT(found.refused, ElementsAre(StartsWith(spoilt.string() + ":1: balls/"),
                                          StartsWith(spoilt.string() + ":2: balls/")));
+}
+
+// The disk is full after the first proofs: what was there before is whole.
+TEST(CertificateFiles, AFullDiskLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  const check::Regime balls = balls_regime();
+  check::CheckRequest request;
+  request.regimes = {&balls};
+  request.cases = 50;
+  request.workers = 1;
+  const auto file = folder.write("proofs.jsonl", "old\n");
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    _exit(input_fault([&] { check::save_certificates(request, file); }).empty() ? 0 : 2);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_EQ(folder.read("proofs.jsonl"), "old\n");
+  EXPECT_THAT(folder.names(), ElementsAre("proofs.jsonl"));
 }
 
 TEST(CertificateFiles, BadFiles) {

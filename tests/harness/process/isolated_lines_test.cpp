@@ -28,7 +28,8 @@ TEST(IsolatedLines, ThoseOfItemsThatEndAreInOrder) {
   std::ostringstream out;
   out << "head\n";
   const auto report = isolated_lines(
-      10, {.item_seconds = 1}, []() -> MakeLine { return line_of; }, out);
+      10, {.item_seconds = 1}, []() -> MakeLine { return line_of; },
+      [&](const std::string& line) { out << line; });
   EXPECT_EQ(out.str(), "head\n0\n2\n4\n6\n" + std::string(1'000'000, '8') + "\n9\n");
   EXPECT_EQ(report.lines, 6);
   ASSERT_EQ(report.failures.size(), 3u);
@@ -40,7 +41,8 @@ TEST(IsolatedLines, ThoseOfItemsThatEndAreInOrder) {
 TEST(IsolatedLines, ASetupThatFailsMakesNone) {
   std::ostringstream out;
   const auto report = isolated_lines(
-      4, {}, []() -> MakeLine { throw std::runtime_error("no setup"); }, out);
+      4, {}, []() -> MakeLine { throw std::runtime_error("no setup"); },
+      [&](const std::string& line) { out << line; });
   EXPECT_EQ(report.lines, 0);
   EXPECT_EQ(out.str(), "");
   ASSERT_EQ(report.failures.size(), 1u);
@@ -51,7 +53,8 @@ TEST(IsolatedLines, ASetupThatFailsMakesNone) {
 TEST(IsolatedLines, NoItemsMakeNone) {
   std::ostringstream out;
   const auto report = isolated_lines(
-      0, {}, []() -> MakeLine { return line_of; }, out);
+      0, {}, []() -> MakeLine { return line_of; },
+      [&](const std::string& line) { out << line; });
   EXPECT_EQ(report.lines, 0);
   EXPECT_TRUE(report.failures.empty());
 }

@@ -8,6 +8,8 @@
 #include <map>
 #include <string>
 
+#include "harness/record/build.h"
+
 namespace touchstone {
 namespace {
 
@@ -59,6 +61,7 @@ TEST(Machine, TellsWhatAReaderOfTheTimesNeeds) {
                            "instructions_in_use",
                            "commit",
                            "tree",
+                           "sources",
                            "command_line",
                            "preloaded",
                            "clock_source",
@@ -73,6 +76,31 @@ TEST(Machine, TellsWhatAReaderOfTheTimesNeeds) {
   EXPECT_THAT(all.at("command_line"), testing::HasSubstr("test_harness_record"));
   EXPECT_EQ(record::shell_line(std::string("/a b/touchstone\0run\0my scene.toml\0it's\0", 39)),
             "touchstone run 'my scene.toml' 'it'\\''s'");
+  // What a program puts in front for its second half is no word of the user's.
+  EXPECT_EQ(record::shell_line(std::string("/a/touchstone\0--of-build=1\0check\0", 33)),
+            "touchstone check");
+}
+
+// The programs of the tests are built from what nobody says to them, so this says it.
+TEST(Machine, SaysWhatWasBuilt) {
+  const std::map<std::string, std::string> before = facts();
+  EXPECT_EQ(before.at("commit"), "unknown");
+  const std::string program = record::hash_of_program();
+  static constexpr record::Build one{"c1", "clean", "s1", "i1"};
+  static constexpr record::Build other_commit{"c2", "changed", "s1", "i1"};
+  static constexpr record::Build other_sources{"c1", "clean", "s2", "i2"};
+  record::set_build(one);
+  EXPECT_EQ(facts().at("commit"), "c1");
+  EXPECT_EQ(facts().at("tree"), "clean");
+  EXPECT_EQ(facts().at("sources"), "s1");
+  const std::string of_one = record::hash_of_program();
+  EXPECT_NE(of_one, program);
+  record::set_build(other_commit);
+  EXPECT_EQ(record::hash_of_program(), of_one);
+  record::set_build(other_sources);
+  EXPECT_NE(record::hash_of_program(), of_one);
+  static constexpr record::Build unknown;
+  record::set_build(unknown);
 }
 
 TEST(Machine, AffinityIsThatOfTheProcess) {

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <functional>
 
+#include "harness/record/own_files.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/packed.h"
 #include "tests/harness/temporary_folder.h"
@@ -40,7 +41,7 @@ class ResultFolderTest : public testing::Test {
             .identity = {{"seed", seed}, {"commit", "abc" + seed}, {"command_line", "run " + seed}},
             .notes = {{"processor", "P" + seed}},
             .start = start,
-            .removed = {"reproductions"}};
+            .made = {"tables.md"}};
   }
   static void write_unit(record::ResultFolder& folder, bool commit = true) {
     for (std::int64_t i = 0; i < 3; ++i) folder.write(first, Count{folder.units(), i});
@@ -119,7 +120,7 @@ TEST_F(ResultFolderTest, UnfinishedWorkIsNotOverwrittenUnasked) {
     write_unit(folder);
   }
   folder_.write("out/other", "kept");
-  std::filesystem::create_directories(folder_.path() / "out/reproductions");
+  folder_.write("out/tables.md", "of the earlier work");
   EXPECT_EQ(fault(plan(record::FolderStart::fresh)),
             "out/a.csv: is of a run that was not finished; expected --resume to go on with it, "
             "--overwrite to lose it, or another --out");
@@ -127,7 +128,7 @@ TEST_F(ResultFolderTest, UnfinishedWorkIsNotOverwrittenUnasked) {
   record::ResultFolder(plan(record::FolderStart::overwrite)).finish();
   EXPECT_EQ(folder_.read("out/a.csv"), "unit,value\n");
   EXPECT_EQ(folder_.read("out/other"), "kept");
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/reproductions"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/tables.md"));
   EXPECT_EQ(fault(plan(record::FolderStart::fresh)), "");  // the earlier work is finished
 }
 
@@ -191,6 +192,110 @@ TEST_F(ResultFolderTest, ARowFileThatLostRowsIsRefused) {
   std::filesystem::remove(folder_.path() / "out/progress.csv");
   EXPECT_THAT(fault(plan(record::FolderStart::resume)),
               HasSubstr("out/progress.csv: is not there, beside rows in a.csv"));
+}
+
+TEST_F(ResultFolderTest, FilesOfOthersStay) {
+  std::filesystem::create_directories(folder_.path() / "out/reproductions");
+  folder_.write("out/reproductions/mine.jsonl", "mine");
+  folder_.write("out/notes.txt", "mine");
+  record::ResultFolder(plan(record::FolderStart::overwrite)).finish();
+  record::OwnFiles own(folder_.path() / "out");
+  const std::filesystem::path taken = own.free_stem("reproductions", "mine");
+  EXPECT_EQ(taken.filename(), "mine-2");
+  folder_.write("out/reproductions/mine-2.jsonl", "of the program");
+  own.note({taken.string() + ".jsonl"});
+  record::ResultFolder(plan(record::FolderStart::overwrite)).finish();
+  EXPECT_EQ(folder_.read("out/reproductions/mine.jsonl"), "mine");
+  EXPECT_EQ(folder_.read("out/notes.txt"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/reproductions/mine-2.jsonl"));
+}
+
+TEST_F(ResultFolderTest, RowsOfOthersAreNotOverwritten) {
+  std::filesystem::create_directories(folder_.path() / "out");
+  folder_.write("out/a.csv", "somebody's own");
+  EXPECT_EQ(fault(plan(record::FolderStart::overwrite)),
+            "out/a.csv: was not written by this program; expected another folder for the run, or "
+            "that file elsewhere");
+  EXPECT_EQ(folder_.read("out/a.csv"), "somebody's own");
+}
+
+TEST_F(ResultFolderTest, LinksAreNotFollowedOutOfTheFolder) {
+  record::ResultFolder(plan(record::FolderStart::overwrite)).finish();
+  std::filesystem::create_directories(folder_.path() / "away");
+  folder_.write("away/x.jsonl", "mine");
+  folder_.write("away/a.csv", "mine");
+  std::filesystem::create_directory_symlink(folder_.path() / "away",
+                                            folder_.path() / "out/reproductions");
+  folder_.write("out/files.txt", "reproductions/x.jsonl\n");
+  EXPECT_THAT(input_fault([&] {
+                record::OwnFiles(folder_.path() / "out").free_stem("reproductions", "y");
+              }),
+              HasSubstr("is reached by a symbolic link"));
+  record::ResultFolder(plan(record::FolderStart::overwrite)).finish();
+  EXPECT_EQ(folder_.read("away/x.jsonl"), "mine");
+  folder_.write("out/files.txt", "../away/x.jsonl\n");
+  EXPECT_EQ(fault(plan(record::FolderStart::overwrite)),
+            "out/files.txt:1: found '../away/x.jsonl'; expected the path of a file in the folder");
+  std::filesystem::remove(folder_.path() / "out/files.txt");
+  std::filesystem::remove(folder_.path() / "out/a.csv");
+  std::filesystem::create_symlink(folder_.path() / "away/a.csv", folder_.path() / "out/a.csv");
+  EXPECT_THAT(fault(plan(record::FolderStart::resume)), HasSubstr("out/a.csv: is no regular file"));
+  EXPECT_THAT(fault(plan(record::FolderStart::overwrite)), HasSubstr("was not written by this"));
+  EXPECT_EQ(folder_.read("away/a.csv"), "mine");
+}
+
+TEST_F(ResultFolderTest, RowsThatAreNotThoseOfTheProgressAreRefused) {
+  {
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
+    write_unit(folder);
+    write_unit(folder);
+  }
+  const std::string progress = folder_.read("out/progress.csv");
+  const std::string rows = folder_.read("out/a.csv");
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string changed = progress;
+    folder_.write("out/progress.csv", changed.replace(changed.find(from), from.size(), to));
+    const std::string found = fault(plan(record::FolderStart::resume));
+    folder_.write("out/progress.csv", progress);
+    EXPECT_EQ(folder_.read("out/a.csv"), rows);
+    return found;
+  };
+  // A smaller number would drop rows of whole units, and other units would do some again.
+  EXPECT_THAT(refused("a.csv,35", "a.csv,23"), HasSubstr("out/a.csv: its first 23 bytes have the"));
+  EXPECT_THAT(refused("units,2", "units,1"), HasSubstr("of the rows of 1 units"));
+  EXPECT_THAT(refused("a.csv hash", "a.csv nothing"), HasSubstr("expected one of the rows"));
+  std::string other = rows;
+  folder_.write("out/a.csv", other.replace(other.find("1,2"), 3, "1,1"));
+  EXPECT_THAT(fault(plan(record::FolderStart::resume)), HasSubstr("out/a.csv: its first 35 bytes"));
+  folder_.write("out/a.csv", rows);
+  EXPECT_EQ(fault(plan(record::FolderStart::resume)), "");
+}
+
+TEST_F(ResultFolderTest, FinishedWorkIsNotCut) {
+  {
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
+    write_unit(folder);
+    folder.finish();
+  }
+  const std::string rows = folder_.read("out/a.csv") + "7,7\n";
+  folder_.write("out/a.csv", rows);
+  EXPECT_EQ(fault(plan(record::FolderStart::resume)),
+            "out/a.csv: 27 bytes; expected 23 of a run that is finished, as progress.csv says");
+  EXPECT_EQ(folder_.read("out/a.csv"), rows);
+}
+
+TEST_F(ResultFolderTest, FinishedWorkThatGoesOnIsNotFinished) {
+  {
+    record::ResultFolder folder(plan(record::FolderStart::fresh));
+    write_unit(folder);
+    folder.finish();
+  }
+  record::ResultFolder folder(plan(record::FolderStart::resume));
+  EXPECT_THAT(folder_.read("out/machine.csv"), HasSubstr("finished,yes"));
+  write_unit(folder);
+  EXPECT_THAT(folder_.read("out/machine.csv"), HasSubstr("finished,no"));
+  folder.finish();
+  EXPECT_THAT(folder_.read("out/machine.csv"), HasSubstr("finished,yes"));
 }
 
 TEST_F(ResultFolderTest, IsForOneProcess) {

@@ -46,6 +46,7 @@ TEST(RecordingView, HasThePosesAndBoxesOfThePlayer) {
   EXPECT_EQ(view["frames"], 4);
   EXPECT_EQ(view["bodies"], 3);
   EXPECT_EQ(view["shapes"].size(), 3U);
+  EXPECT_EQ(view["fixed"], OrderedJson({0}));
   EXPECT_FALSE(view["boxes_only"]);
   const std::vector<float> poses = frames_of(std::string(view["poses"]), 7 * 3);
   const std::vector<float> boxes = frames_of(std::string(view["boxes"]), 6 * 3);

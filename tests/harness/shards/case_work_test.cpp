@@ -7,6 +7,7 @@
 #include "harness/record/facts.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/shards/planned.h"
+#include "tests/harness/stopped_folder.h"
 
 namespace touchstone {
 namespace {
@@ -166,12 +167,10 @@ TEST_F(CaseShards, APartThatWasStoppedGoesOn) {
   const std::string done = folder_.read("plan/shards/0/0/part-0-7/jobs.csv");
   // As a kill leaves it: half a row more than progress.csv knows, and no end of the attempt.
   const std::string name = "plan/shards/0/0/part-0-7/";
-  edit(plan() / "shards/0/0/part-0-7/machine.csv", "finished,yes", "finished,no");
   std::size_t end = 0;
   for (int line = 0; line < 5; ++line) end = done.find('\n', end) + 1;
-  folder_.write(name + "progress.csv",
-                "name,value\nunits,2\njobs.csv," + std::to_string(end) + "\nfamilies.csv," +
-                    std::to_string(folder_.read(name + "families.csv").size()) + "\n");
+  stop_folder(part(0, 0, 7), 2,
+              {{"jobs.csv", end}, {"families.csv", folder_.read(name + "families.csv").size()}});
   folder_.write(name + "jobs.csv", done.substr(0, end + 20));
   std::string attempts = folder_.read("plan/shards/0/0/attempts.csv");
   attempts.resize(attempts.find("\n", attempts.find("begun")) + 1);
@@ -209,6 +208,35 @@ TEST_F(CaseShards, RowsThatAreNotThoseOfThePlanAreRefused) {
   EXPECT_THAT(merge().missing, IsEmpty());
 }
 
+TEST_F(CaseShards, RowsThatWereReplacedAreRefused) {
+  make(small_soak, 2);
+  run(0);
+  run(1);
+  const std::string name = "plan/shards/0/0/part-0-7/";
+  const std::string jobs = folder_.read(name + "jobs.csv");
+  // One regime twice and another never: as many rows, of the same length.
+  std::string other = jobs;
+  for (std::size_t at = 0; (at = other.find("depth-1e-3", at)) != std::string::npos;)
+    other.replace(at, 10, "gap-1e-3  ");
+  ASSERT_NE(other, jobs);
+  folder_.write(name + "jobs.csv", other);
+  EXPECT_THAT(input_fault([&] { merge(); }),
+              HasSubstr(name + "jobs.csv: its first " + std::to_string(jobs.size()) + " bytes"));
+  // The rows and the progress of another shard.
+  for (const char* file : {"jobs.csv", "progress.csv"})
+    folder_.write(name + file, folder_.read("plan/shards/0/1/part-7-14/" + std::string(file)));
+  EXPECT_THAT(input_fault([&] { merge(); }), HasSubstr("hash"));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(CaseShards, AHostThatIsAPathIsRefused) {
+  make(small_soak, 1);
+  run(0);
+  edit(part(0, 0, 14) / "machine.csv", "host," + shards::host_name(), "host,../../away");
+  EXPECT_THAT(input_fault([&] { merge(); }), HasSubstr("host: found '../../away'; expected"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "away"));
+}
+
 TEST_F(CaseShards, AFactOfThePlanThatWasChangedIsRefused) {
   make(small_soak, 2);
   edit(plan() / "plan.csv", "work,program,", "work,program,0");
@@ -238,8 +266,9 @@ TEST_F(CaseShards, ResultsOfOtherWorkAreNotReplaced) {
   EXPECT_THAT(input_fault([&] { merge(); }), HasSubstr("expected another --out, or --overwrite"));
   EXPECT_EQ(folder_.read("out/mine.txt"), "mine");
   shards::merge_plan(plan(), out(), {.overwrite = true});
-  EXPECT_FALSE(std::filesystem::exists(out() / "mine.txt"));
-  EXPECT_THAT(merge().missing, IsEmpty());  // those of the plan are replaced without a word
+  EXPECT_EQ(folder_.read("out/mine.txt"), "mine");  // what nobody's results need stays
+  EXPECT_THAT(merge().missing, IsEmpty());          // those of the plan are replaced without a word
+  EXPECT_EQ(folder_.read("out/mine.txt"), "mine");
   EXPECT_THAT(folder_.names(), ::testing::ElementsAre("out", "plan", "work.toml"));
 }
 

@@ -1,5 +1,8 @@
 // Tests that plans are whole, and that what is wrong with one is told.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
 
 #include "tests/harness/input_fault.h"
 #include "tests/harness/shards/planned.h"
@@ -104,6 +107,49 @@ TEST_F(ShardPlans, TheStateSaysWhoFailedAndWhy) {
   EXPECT_THAT(text, HasSubstr("killed, or its machine went down"));
   EXPECT_THAT(text, HasSubstr("failed: no space"));
   EXPECT_THAT(text, HasSubstr("slurm.sh 1-2"));
+}
+
+// Whoever can write into the plan can name any file as a log.
+TEST_F(ShardPlans, OnlyALogInThePlanIsRead) {
+  make(soak, 2);
+  const auto words = [&](const std::filesystem::path& log) {
+    setenv("TOUCHSTONE_LOG", log.c_str(), 1);
+    auto lock = std::make_unique<shards::ShardLock>(shards::shard_path(plan(), 1), 1);
+    lock->begin();
+    lock->end(shards::Event::failed, "fault");
+    lock.reset();
+    unsetenv("TOUCHSTONE_LOG");
+    return status_of(shards::read_plan(plan()), 1).words;
+  };
+  folder_.write("secret", "from elsewhere\n");
+  folder_.write("plan/logs/own", "from here\n");
+  EXPECT_EQ(words(plan() / "logs/own"), "failed: fault; its last words: from here");
+  EXPECT_EQ(words(folder_.path() / "secret"), "failed: fault");
+  EXPECT_EQ(words(plan() / "logs/../../secret"), "failed: fault");
+  std::filesystem::create_symlink(folder_.path() / "secret", plan() / "logs/link");
+  EXPECT_EQ(words(plan() / "logs/link"), "failed: fault");
+  ASSERT_EQ(mkfifo((plan() / "logs/pipe").c_str(), 0600), 0);
+  EXPECT_EQ(words(plan() / "logs/pipe"), "failed: fault");  // nobody writes to it
+}
+
+TEST_F(ShardPlans, NamesThatLeaveThePlanAreRefused) {
+  make(soak, 2);
+  const std::string whole = folder_.read("plan/plan.csv");
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    edit(plan() / "plan.csv", from, to);
+    const std::string fault = input_fault([&] { shards::read_plan(plan()); });
+    folder_.write("plan/plan.csv", whole);
+    return folder_.without_path(fault);
+  };
+  EXPECT_THAT(refused("file,work.toml", "file,../../work.toml"),
+              HasSubstr("plan/plan.csv:5: file: found '../../work.toml'; expected"));
+  EXPECT_THAT(refused("name,work", "name,\033]0;title\007"),
+              HasSubstr("plan/plan.csv:4: name: found '?]0;title?'; expected"));
+}
+
+TEST_F(ShardPlans, AFolderThatCannotBeWrittenIsFoundBeforeTheTrials) {
+  folder_.write("plan", "a file");
+  EXPECT_THAT(input_fault([&] { make(soak, 2); }), HasSubstr("is no folder"));
 }
 
 TEST(ListOf, JoinsNeighbours) {

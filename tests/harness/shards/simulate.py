@@ -33,6 +33,22 @@ def id_of(plan):
         return next(row["value"] for row in csv.DictReader(file) if row["name"] == "id")
 
 
+def mixed(x):
+    x = (x + 0x9E3779B97F4A7C15) % 2**64
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9 % 2**64
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EB % 2**64
+    return x ^ (x >> 31)
+
+
+def hash_of(text):
+    """The hash of rows in progress.csv (harness/base/byte_hash.h)."""
+    content = text.encode()
+    state = 0
+    for at in range(0, len(content), 8):
+        state = mixed(state ^ int.from_bytes(content[at : at + 8].ljust(8, b"\0"), "little"))
+    return f"{mixed(state ^ len(content)):016x}"
+
+
 class Model:
     """What a shard that was done leaves, as texts with holes."""
 
@@ -46,6 +62,7 @@ class Model:
         self.machine = (part / "machine.csv").read_text()
         self.id = id_of(plan)
         self.attempts = (part.parent / "attempts.csv").read_text()
+        self.families = (part / "families.csv").read_text()
         self.header, self.row = (part / "jobs.csv").read_text().splitlines(keepends=True)[:2]
         shutil.rmtree(plan)
 
@@ -63,12 +80,14 @@ class Model:
         (part.parent / "attempts.csv").write_text(self.attempts)
         facts = machine.replace("part,0-1\n", f"part,{first}-{end}\n").replace("shard,0\n", f"shard,{shard}\n")
         (part / "machine.csv").write_text(facts)
-        size = len(self.header)
-        with open(part / "jobs.csv", "w") as file:
-            file.write(self.header)
-            for _ in range(rows // 1000):
-                size += file.write(self.row * 1000)
-        (part / "progress.csv").write_text(f"name,value\nunits,{end - first}\njobs.csv,{size}\n")
+        text = self.header + self.row * rows
+        (part / "jobs.csv").write_text(text)
+        (part / "families.csv").write_text(self.families)
+        belonging = f"{end - first}\n{id_of(plan)}\n{shard}\n{first}-{end}"
+        progress = f"name,value\nunits,{end - first}\n"
+        for name, content in (("jobs.csv", text), ("families.csv", self.families)):
+            progress += f"{name},{len(content)}\n{name} hash,{hash_of(content + belonging)}\n"
+        (part / "progress.csv").write_text(progress)
 
 
 def simulate(program, model, shards, rows, folder):

@@ -71,13 +71,14 @@ export function checkbox(
 export const controls = (...children: (Node | null)[]): HTMLElement =>
   make("div", { class: "controls" }, ...children);
 
-// Each algorithm has a switch. Two buttons switch all of them on, or none.
+// Each algorithm has a switch. Two buttons switch all of them on, or none. Many switches are folded where the screen is
+// narrow, since they would fill it.
 export function switches(
   legend: string,
   names: string[],
   hidden: Set<string>,
   changed: () => void,
-): HTMLFieldSetElement {
+): HTMLElement {
   const boxes = names.map((name) =>
     checkbox(name, !hidden.has(name), (on) => {
       if (on) hidden.delete(name);
@@ -93,7 +94,7 @@ export function switches(
     for (const box of boxes) box.set(on);
     changed();
   };
-  return make(
+  const fieldset = make(
     "fieldset",
     {},
     make("legend", {}, legend),
@@ -101,6 +102,8 @@ export function switches(
     button("none", () => set_all(false), `${legend}: none`),
     ...boxes.map((box) => box.element),
   );
+  if (innerWidth >= 700) return fieldset;
+  return make("details", {}, make("summary", {}, `${legend}: choose among ${names.length}`), fieldset);
 }
 
 // The chart shows what is chosen, and the first to begin with.

@@ -1,4 +1,4 @@
-// Sentences and charts have numbers as people read them. Tables show the text of the files instead.
+// Sentences, charts and tables have numbers as people read them. Tables have the text of the files too.
 
 const time_units: [number, string][] = [
   [1, "s"],
@@ -14,12 +14,14 @@ export function time_text(seconds: number): string {
   return `${number_text(seconds / size)} ${unit}`;
 }
 
+const three_digits = new Intl.NumberFormat("en", { maximumSignificantDigits: 3 });
+
 export function number_text(value: number): string {
   if (Number.isNaN(value)) return "–";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   const size = Math.abs(value);
-  if (value !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replace("-", "−");
-  return value.toLocaleString("en", { maximumSignificantDigits: 3 }).replace("-", "−");
+  if (value !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replaceAll("-", "−");
+  return three_digits.format(value).replaceAll("-", "−");
 }
 
 export const count_text = (value: number): string => value.toLocaleString("en");
@@ -50,3 +52,11 @@ export function number_of(text: string): number {
 
 export const is_number_text = (text: string): boolean =>
   !Number.isNaN(number_of(text)) || /^[+-]?nan$/i.test(text);
+
+// A field of a table has three digits, and a unit where it is a time. Whole numbers keep their digits.
+export function field_text(text: string, is_time: boolean): string {
+  const value = number_of(text);
+  if (!Number.isFinite(value)) return text;
+  if (is_time) return value === 0 ? "0 s" : time_text(value);
+  return /^[+-]?\d+$/.test(text) || text.length <= 4 ? text : number_text(value);
+}

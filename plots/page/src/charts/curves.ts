@@ -29,14 +29,13 @@ const point_of = (row: Row): Point => ({
   origin: row.text("origin"),
 });
 
-const size = {
-  width: 960,
-  height: 520,
-  marginTop: 20,
-  marginBottom: 40,
-  marginLeft: 70,
-  marginRight: 170,
-};
+// The chart is as wide as the page, so that the names at the ends of its lines can be seen on a phone too.
+const narrow = (): boolean => innerWidth < 700;
+const margins = { height: 520, marginTop: 20, marginBottom: 40 };
+const size = () =>
+  narrow()
+    ? { ...margins, width: Math.max(320, innerWidth - 44), marginLeft: 52, marginRight: 118, style: "font-size: 9px" }
+    : { ...margins, width: 960, marginLeft: 70, marginRight: 170 };
 
 // Curves have their names at their ends. The heights are those of the chart's logarithmic axis.
 function labels(
@@ -45,7 +44,7 @@ function labels(
 ): { bodies: number; seconds: number; name: string }[] {
   const ends = curves.map((curve) => curve[curve.length - 1]!);
   const [low, high] = domain.map(Math.log) as [number, number];
-  const room = size.height - size.marginTop - size.marginBottom;
+  const room = margins.height - margins.marginTop - margins.marginBottom;
   const height = (seconds: number): number => ((Math.log(seconds) - low) / (high - low)) * room;
   const moved = apart(
     ends.map((end) => height(end.seconds)),
@@ -71,7 +70,7 @@ function chart_of(points: Point[], all_names: string[], title: string): Element 
   const most = times.reduce((a, b) => Math.max(a, b), -Infinity);
   const domain: [number, number] = points.length > 0 ? [least / 1.1, most * 1.1] : [1e-6, 1];
   return Plot.plot({
-    ...size,
+    ...size(),
     ariaLabel: `time against the number of bodies: ${title}`,
     x: { type: "log", label: "bodies", grid: true, tickFormat: count_text },
     y: { type: "log", label: "time", tickFormat: time_text, grid: true, domain },

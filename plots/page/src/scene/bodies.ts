@@ -2,8 +2,9 @@
 // has the bodies' poses. So a frame takes two calls. Instanced meshes would be slow, because a browser without a
 // graphics card takes as long for an instance as for a call.
 import * as THREE from "three";
+import type { Slices } from "../base/slices";
 import type { Recording, ShapeView } from "../bundle";
-import { body_material, packed_states } from "./body_material";
+import { body_material, packed_states, type Look } from "./body_material";
 import { geometry_of, is_round, joined } from "./body_shapes";
 import type { Recorded } from "./recorded";
 import { is_polytope } from "./surfaces";
@@ -21,42 +22,61 @@ interface Level {
 export class Bodies {
   private readonly texture: THREE.DataTexture;
   private readonly shapes: ShapeView[]; // each body's
-  private readonly levels: Level[]; // the finest comes first
+  private readonly levels: Level[] = []; // the finest comes first
 
   // `reach` says how far half-spaces are drawn, metres.
-  constructor(
-    private readonly recording: Recording,
-    private readonly recorded: Recorded,
+  static async make(
+    recording: Recording,
+    recorded: Recorded,
     scene: THREE.Scene,
     reach: number,
+    look: Look,
+    slices: Slices,
+  ): Promise<Bodies> {
+    const bodies = new Bodies(recording, recorded);
+    const curved = bodies.shapes.filter((shape) => !is_polytope(shape)).length;
+    for (const triangles of curved > 0 ? triangles_of_levels : [0]) {
+      await slices.begin("making bodies");
+      bodies.levels.push(await bodies.level(reach, triangles / Math.max(1, curved), look, slices));
+    }
+    for (const { group } of bodies.levels) scene.add(group);
+    bodies.hurry(false);
+    return bodies;
+  }
+
+  private constructor(
+    private readonly recording: Recording,
+    private readonly recorded: Recorded,
   ) {
     const box: ShapeView = { type: "box", half_extents: [1, 1, 1] };
     this.shapes = Array.from({ length: recorded.bodies }, (_, body) =>
       recording.boxes_only ? box : recording.shapes[recording.shape_of[body]!]!,
     );
     this.texture = texels_for(recorded.bodies);
-    const curved = this.shapes.filter((shape) => !is_polytope(shape)).length;
-    const wanted = curved > 0 ? triangles_of_levels : [0];
-    this.levels = wanted.map((triangles) => this.level(reach, triangles / Math.max(1, curved)));
-    for (const { group } of this.levels) scene.add(group);
-    this.hurry(false);
   }
 
-  private level(reach: number, triangles_of_a_body: number): Level {
+  private async level(
+    reach: number,
+    triangles_of_a_body: number,
+    look: Look,
+    slices: Slices,
+  ): Promise<Level> {
     const made = new Map<ShapeView, THREE.BufferGeometry>();
-    const of_bodies = this.shapes.map((shape) => {
+    const of_bodies: THREE.BufferGeometry[] = [];
+    for (const shape of this.shapes) {
       const geometry = made.get(shape) ?? geometry_of(shape, reach, triangles_of_a_body);
       made.set(shape, geometry);
-      return geometry;
-    });
+      of_bodies.push(geometry);
+      await slices.rest(of_bodies.length, this.shapes.length);
+    }
     const group = new THREE.Group();
     for (const round of [true, false]) {
       const alike = [...of_bodies.keys()].filter((body) => is_round(this.shapes[body]!) === round);
       if (alike.length === 0) continue;
-      const geometry = joined(alike, of_bodies);
+      const geometry = await joined(alike, of_bodies, slices);
       for (const view of [0, 1]) {
         const kind = { round, upright: this.recording.boxes_only };
-        const mesh = new THREE.Mesh(geometry, body_material(this.texture, view, kind));
+        const mesh = new THREE.Mesh(geometry, body_material(this.texture, view, kind, look));
         mesh.frustumCulled = false;
         mesh.layers.set(view + 1);
         group.add(mesh);

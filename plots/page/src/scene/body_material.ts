@@ -49,19 +49,59 @@ varying float light;
 #else
 varying vec3 seen;
 #endif
+uniform vec3 colours[3];
+uniform float grain;
 void main() {
   bool contact = state > 1.5, near = state > 0.5;
-  uvec2 pixel = uvec2(gl_FragCoord.xy) & 7u;
+  uvec2 pixel = uvec2(gl_FragCoord.xy / grain) & 7u;
   bool low = pixel.y < 4u;
   uint rows = contact ? (low ? 0x1c1c0800u : 0x00000008u) : near ? (low ? 0x180c0603u : 0x81c06030u) : 0u;
   bool marked = ((rows >> ((pixel.y & 3u) * 8u + pixel.x)) & 1u) == 1u;
-  vec3 ground = contact ? vec3(0.26, 0.42, 0.86) : near ? vec3(0.24, 0.64, 0.34) : vec3(0.8, 0.28, 0.24);
-  vec3 mark = contact ? vec3(0.52, 0.64, 0.96) : vec3(0.6, 0.83, 0.62);
+  vec3 ground = contact ? colours[2] : near ? colours[1] : colours[0];
+  vec3 mark = mix(ground, vec3(1.0), 0.4);
 #ifndef ROUND
   float light = dot(normalize(cross(dFdx(seen), dFdy(seen))), beside_the_eye);
 #endif
   gl_FragColor = vec4((marked ? mark : ground) * (0.5 + 0.55 * max(light, 0.0)), 1.0);
 }`;
+
+// A palette has the colours of the three states: apart, boxes that overlap, contact. `touchstone draw` has those of
+// the first.
+export interface Palette {
+  name: string;
+  colours: [number, number, number];
+  words: [string, string, string];
+}
+
+export const palettes: Palette[] = [
+  {
+    name: "grey, amber, red",
+    colours: [0x9aa0a6, 0xe8b04a, 0xd23c32],
+    words: ["Grey", "Amber", "Red"],
+  },
+  {
+    name: "red, green, blue",
+    colours: [0xcc473d, 0x3da357, 0x426bdb],
+    words: ["Red", "Green", "Blue"],
+  },
+];
+
+// What the materials of all bodies share.
+export class Look {
+  readonly colours = { value: [0, 1, 2].map(() => new THREE.Color()) };
+  readonly grain = { value: 1 }; // points of the picture for one of the pattern, on each axis
+
+  constructor() {
+    this.wear(palettes[0]!);
+  }
+
+  // The shader gives colours to the screen as they are.
+  wear({ colours }: Palette): void {
+    colours.forEach((colour, state) =>
+      this.colours.value[state]!.setHex(colour, THREE.LinearSRGBColorSpace),
+    );
+  }
+}
 
 // One number in a body's texel says both of its states: that of the left view, and that of the right one.
 export const packed_states = (left: number, right: number): number => left + 4 * right;
@@ -71,6 +111,7 @@ export const body_material = (
   bodies: THREE.DataTexture,
   view: number,
   { upright, round }: { upright: boolean; round: boolean },
+  { colours, grain }: Look,
 ): THREE.Material =>
   new THREE.ShaderMaterial({
     defines: round ? { ROUND: "" } : {},
@@ -80,5 +121,7 @@ export const body_material = (
       bodies: { value: bodies },
       view_scale: { value: view === 0 ? packed_states(1, 0) : packed_states(0, 1) },
       upright: { value: upright },
+      colours,
+      grain,
     },
   });

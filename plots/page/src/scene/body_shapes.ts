@@ -1,6 +1,7 @@
 // The shapes of bodies become triangles here. Those of many bodies are copied into one geometry, so that one call
 // draws them.
 import * as THREE from "three";
+import type { Slices } from "../base/slices";
 import type { BodyView, ShapeView } from "../bundle";
 import { even, surface_of, type Fineness } from "./surfaces";
 
@@ -35,7 +36,11 @@ export function geometry_of(
 }
 
 // One geometry has copies of the shapes of some bodies, and each vertex has the number of its body.
-export function joined(numbers: number[], of_bodies: THREE.BufferGeometry[]): THREE.BufferGeometry {
+export async function joined(
+  numbers: number[],
+  of_bodies: THREE.BufferGeometry[],
+  slices: Slices,
+): Promise<THREE.BufferGeometry> {
   const parts = numbers.map((number) => of_bodies[number]!);
   const vertices = parts.reduce((sum, part) => sum + part.getAttribute("position").count, 0);
   const corners = parts.reduce((sum, part) => sum + part.index!.count, 0);
@@ -45,14 +50,15 @@ export function joined(numbers: number[], of_bodies: THREE.BufferGeometry[]): TH
     index = new Uint32Array(corners);
   let vertex = 0,
     corner = 0;
-  parts.forEach((part, i) => {
+  for (const [i, part] of parts.entries()) {
     const { array, count } = part.getAttribute("position");
     position.set(array, 3 * vertex);
     normal.set(part.getAttribute("normal").array, 3 * vertex);
     body.fill(numbers[i]!, vertex, vertex + count);
     for (const own of part.index!.array) index[corner++] = vertex + own;
     vertex += count;
-  });
+    await slices.rest(i, parts.length);
+  }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
   geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));

@@ -1,6 +1,7 @@
 // The list has all pairs of a folder. Each is drawn when it is opened.
 import { make, quiet } from "../base/dom";
 import type { Folder } from "../tables/folder";
+import { pair_text } from "../tables/pairs";
 import { pair_view, type PairView } from "./pair_view";
 
 export function case_list(folder: Folder): HTMLElement {
@@ -13,7 +14,7 @@ export function case_list(folder: Folder): HTMLElement {
     open.details.open = false;
     open = null;
   };
-  const items = folder.cases.map((pair, number) => {
+  const items = folder.pairs.map((pair, number) => {
     const anchor = folder.case_anchor(number);
     const place = make("div");
     const details = make(
@@ -22,7 +23,7 @@ export function case_list(folder: Folder): HTMLElement {
       make(
         "summary",
         {},
-        `${pair.id}: ${pair.truth.answer}, ${pair.about} `,
+        `${pair_text(pair)} (${pair.about}) `,
         make("a", { href: `#${anchor}`, class: "link", "aria-label": `link to ${pair.id}` }, "¶"),
       ),
       place,

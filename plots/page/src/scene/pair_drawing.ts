@@ -37,6 +37,15 @@ export class PairDrawing {
     return points.reduce((most, point) => Math.max(most, norm(subtract(point, origin))), 0);
   }
 
+  // These are points on both bodies where nothing is enlarged. Half-spaces have none, since they have no end.
+  corners(): Vector3[] {
+    const magnifier = new Magnifier(this.contact, this.normal, this.size, 1, 1);
+    return [this.pair.a, this.pair.b]
+      .filter(({ shape }) => shape.type !== "halfspace")
+      .flatMap((body) => surface_of(body, this.normal, this.contact, 1, even(8, 12)).points)
+      .map((point) => magnifier.place(point));
+  }
+
   // With these powers of ten the gap is as wide as a fifth of a body's size. One half of them enlarges all, so that
   // the bodies are as curved as the gap is wide. The other half stretches along the normal.
   powers_for_gap(): [number, number] {

@@ -9,6 +9,7 @@ export interface Question {
   selected: number; // a body, or -1
   left: number;
   right: number;
+  only_within: boolean; // lists the pairs within the resolution in place of those about which they differ
 }
 
 export function pair_table(
@@ -16,10 +17,15 @@ export function pair_table(
   asked: Question,
   picked: (body: number) => void,
 ): HTMLElement {
-  const { frame, selected, left, right } = asked;
+  const { frame, selected, left, right, only_within } = asked;
   const { bodies, distances } = recorded.pairs(frame);
-  const differing = recorded.disagreements(frame, left, right);
-  const shown = selected < 0 ? differing : pairs_of(bodies, selected);
+  const disagreements = recorded.disagreements(frame, left, right);
+  const differing = new Set(disagreements.differing),
+    within = new Set(disagreements.within_resolution);
+  const shown =
+    selected < 0
+      ? [...(only_within ? within : differing)]
+      : pairs_of(bodies, selected);
   const columns = ["first", "second", ...recorded.algorithms, "proven distance, m", "differ"];
   const rows = shown.map((pair) => [
     String(bodies[2 * pair]),
@@ -28,12 +34,12 @@ export function pair_table(
       (_, k) => verdict_names[recorded.verdict(frame, pair, k)] ?? "unknown",
     ),
     Number.isNaN(distances[pair] ?? NaN) ? "" : String(distances[pair]),
-    differing.includes(pair) ? "✗" : "",
+    differing.has(pair) ? "✗" : within.has(pair) ? "within the resolution" : "",
   ]);
   return make(
     "div",
     { class: "pairs-of-frame" },
-    quiet(differ_text(recorded, asked, differing.length)),
+    quiet(differ_text(recorded, asked, differing.size, within.size)),
     selected >= 0
       ? make("p", {}, `Body ${selected} has ${rows.length} pairs whose boxes overlap.`)
       : null,
@@ -46,11 +52,21 @@ export function pair_table(
   );
 }
 
-function differ_text(recorded: Recorded, { frame, left, right }: Question, differ: number): string {
+function differ_text(
+  recorded: Recorded,
+  { frame, left, right }: Question,
+  differ: number,
+  within: number,
+): string {
   const pairs = Math.floor(recorded.pairs(frame).bodies.length / 2);
   const all = `${pairs} pairs of boxes overlap in this frame.`;
   if (recorded.algorithms.length < 2) return all;
-  return `${all} ${recorded.algorithms[left]} and ${recorded.algorithms[right]} differ on ${differ} of them.`;
+  const names = `${recorded.algorithms[left]} and ${recorded.algorithms[right]}`;
+  const near =
+    within > 0
+      ? ` On ${within} their answers differ within the resolution of double precision, 2.9e-14 of the pair, where both are right.`
+      : "";
+  return `${all} ${names} differ on ${differ} of them.${near}`;
 }
 
 function pairs_of(bodies: Uint32Array, body: number): number[] {

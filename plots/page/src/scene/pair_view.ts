@@ -5,6 +5,7 @@ import { button, choice, command_line, controls, copy_button } from "../base/con
 import { make, quiet } from "../base/dom";
 import { number_text } from "../base/numbers";
 import { grid } from "../tables/grid";
+import { is_wrong } from "../tables/pairs";
 import { Table } from "../tables/table";
 import { PairDrawing } from "./pair_drawing";
 import { Stage } from "./stage";
@@ -76,23 +77,23 @@ function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
   ];
   draw();
   // A gap is seen as one from the side; somewhat from above, the plane in it is seen too.
-  const look = (tilt: number): void => {
+  const from = (tilt: number): THREE.Vector3 => {
     const [side, up] = beside(drawing.normal);
-    const from = add(add(side, times(0.3, up)), times(tilt, drawing.normal));
-    stage.look_at(new THREE.Vector3(0, 0, 0), 1.2, new THREE.Vector3(...from));
+    return new THREE.Vector3(...add(add(side, times(0.3, up)), times(tilt, drawing.normal)));
   };
-  look(0.15);
+  const look_at_all = (): void => stage.fit(drawing.corners(), from(0.15));
+  look_at_all();
   return [
     controls(
       zoom.element,
       stretch.element,
       button("show the gap", () => {
         set(...drawing.powers_for_gap());
-        look(0);
+        stage.look_at(new THREE.Vector3(0, 0, 0), 1.2, from(0));
       }),
       button("whole bodies", () => {
         set(0, 0);
-        look(0.15);
+        look_at_all();
       }),
       choice("What it says", names, first_wrong < 0 ? 0 : first_wrong + 2, (place) => {
         chosen =
@@ -134,9 +135,6 @@ function power_slider(
     },
   };
 }
-
-const is_wrong = ({ grade }: AnswerView): boolean =>
-  ["silent", "approximate", "crashed", "hung"].includes(grade);
 
 function answer_table(answers: AnswerView[]): HTMLElement {
   const number = (value: number | null): string => (value === null ? "" : String(value));

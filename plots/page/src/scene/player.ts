@@ -3,6 +3,8 @@ import type { Recording } from "../bundle";
 import { button, checkbox, choice, controls } from "../base/controls";
 import { make, quiet } from "../base/dom";
 import { number_text } from "../base/numbers";
+import { Slices } from "../base/slices";
+import { palettes } from "./body_material";
 import { Clock } from "./clock";
 import { pair_table } from "./pair_table";
 import { Recorded } from "./recorded";
@@ -17,17 +19,34 @@ export interface Player {
 // These are the points drawn for each of the screen's, on each axis, from the finest to the coarsest.
 const sharpnesses = [1, 0.8, 0.65, 0.5];
 
-export function player(recording: Recording): Player {
-  const opened = Stage.open(`${recording.name}, played`, false);
-  if (!opened) {
+export async function player(recording: Recording, slices: Slices): Promise<Player> {
+  const recorded = await Recorded.read(recording, slices);
+  await slices.begin("making a picture");
+  const stage = Stage.open(`${recording.name}, played`, false);
+  if (!stage) {
     return {
       element: quiet("This browser draws nothing in three dimensions."),
       dispose: () => {},
     };
   }
-  const stage = opened;
-  const recorded = new Recorded(recording);
-  const view = new SceneView(stage, recording, recorded);
+  try {
+    const view = await SceneView.open(stage, recording, recorded, slices);
+    await slices.begin("making shaders");
+    await stage.compile();
+    await slices.begin("making controls");
+    return controlled(recording, recorded, stage, view);
+  } catch (error) {
+    stage.dispose();
+    throw error;
+  }
+}
+
+function controlled(
+  recording: Recording,
+  recorded: Recorded,
+  stage: Stage,
+  view: SceneView,
+): Player {
   const several = recorded.algorithms.length > 1;
   const shown: Shown = {
     frame: 0,
@@ -35,6 +54,7 @@ export function player(recording: Recording): Player {
     right: several ? 1 : 0,
     side_by_side: false,
     boxes: false,
+    with_fixed: false,
     structure: -1,
     selected: -1,
   };
@@ -61,13 +81,14 @@ export function player(recording: Recording): Player {
   }
 
   // Tables take longer than frames: while it plays they follow four times a second.
-  let told_at = 0;
+  let told_at = 0,
+    only_within = false;
   function tell(): void {
     if (clock.playing && performance.now() - told_at < 250) return;
     told_at = performance.now();
     const rows = (): HTMLElement[] => [...pairs.querySelectorAll<HTMLElement>("tr.pickable")];
     const focused = rows().findIndex((row) => row === document.activeElement);
-    pairs.replaceChildren(pair_table(recorded, shown, select));
+    pairs.replaceChildren(pair_table(recorded, { ...shown, only_within }, select));
     // A reader who is among the rows stays there.
     if (focused >= 0) rows().slice(0, focused + 1).pop()?.focus();
   }
@@ -93,7 +114,7 @@ export function player(recording: Recording): Player {
   let haste = 0;
   function hurry(more: number): void {
     haste = Math.min(more, sharpnesses.length - 1);
-    stage.sharpen(sharpnesses[haste]!);
+    stage.play(clock.playing, sharpnesses[haste]!);
     view.hurry(haste > 0);
   }
 
@@ -109,7 +130,7 @@ export function player(recording: Recording): Player {
   );
   const play = button("Play", () => {
     clock.toggle();
-    if (!clock.playing) hurry(0);
+    hurry(0);
     play.textContent = clock.playing ? "Pause" : "Play";
     tell();
   });
@@ -143,13 +164,30 @@ export function player(recording: Recording): Player {
     });
 
   // The scene goes to the next frame in which the two algorithms differ.
-  function next_difference(): void {
+  async function next_difference(): Promise<void> {
+    const { frame: from, left, right } = shown;
+    const slices = new Slices();
     for (let ahead = 1; ahead <= recording.frames; ++ahead) {
-      const frame = (shown.frame + ahead) % recording.frames;
-      if (recorded.disagreements(frame, shown.left, shown.right).length > 0) return go_to(frame);
+      const frame = (from + ahead) % recording.frames;
+      if (recorded.disagreements(frame, left, right).differing.length > 0) return go_to(frame);
+      await slices.rest();
     }
     where.textContent = "they differ in no frame";
   }
+
+  // The first word of each colour is what it is called.
+  const legend = quiet("");
+  function wear(place: number): void {
+    const palette = palettes[place]!;
+    const [apart, boxes, contact] = palette.words;
+    const with_what = shown.with_fixed || !recorded.has_fixed_bodies ? "another body" : "a body that is not fixed";
+    legend.textContent =
+      `${apart} and plain: certainly apart. ${boxes} and striped: its box overlaps that of ${with_what}. ` +
+      `${contact} and dotted: it overlaps ${with_what}, or touches it.`;
+    view.wear(palette);
+  }
+  let palette = 0;
+  wear(palette);
 
   name_views(false);
   update({});
@@ -177,9 +215,22 @@ export function player(recording: Recording): Player {
       recorded.algorithms.length > 0 ? chooser("Coloured by", "left") : null,
       several ? chooser("compared with", "right") : null,
       several ? checkbox("side by side", false, show_side_by_side).element : null,
-      several ? button("next difference", next_difference) : null,
+      several ? button("next difference", () => void next_difference()) : null,
+      recorded.has_fixed_bodies
+        ? checkbox("contacts with fixed bodies", false, (with_fixed) => {
+            update({ with_fixed });
+            wear(palette);
+          }).element
+        : null,
+      choice(
+        "Colours",
+        palettes.map((each) => each.name),
+        palette,
+        (place) => wear((palette = place)),
+      ),
       make("label", {}, "Body ", number),
     ),
+    legend,
     names,
     stage.element,
     quiet(
@@ -187,6 +238,12 @@ export function player(recording: Recording): Player {
         "around bodies about which the algorithms differ. A structure's boxes have a colour for each level. " +
         "Arrow keys turn the view, + and − move it.",
     ),
+    several
+      ? checkbox("list pairs within the resolution instead", false, (on) => {
+          only_within = on;
+          tell();
+        }).element
+      : null,
     pairs,
   );
   return { element, dispose: () => stage.dispose() };

@@ -17,7 +17,7 @@ export function verdicts(folder: Folder): HTMLElement | null {
     sweep(folder),
     soak(folder),
   ];
-  if (folder.cases.length > 0) {
+  if (folder.pairs.length > 0) {
     parts.push(part(`${folder.anchor}-pairs`, "The pairs themselves", case_list(folder)));
   }
   const shown = parts.filter((each) => each !== null);

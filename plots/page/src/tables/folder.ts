@@ -1,8 +1,9 @@
 // A folder holds the results of one run. Its files are parsed when somebody first asks for them, since most are
 // never looked at.
 import { fresh_anchor } from "../base/anchors";
-import type { CaseView, Results } from "../bundle";
+import type { Results } from "../bundle";
 import { file_grid, type GridOptions } from "./grid";
+import { pairs_of, type Pair } from "./pairs";
 import { Row, Table } from "./table";
 
 export class Folder {
@@ -14,7 +15,10 @@ export class Folder {
 
   readonly name: string; // the program makes it different from all others of the page
 
+  readonly pairs: Pair[];
+
   constructor(readonly results: Results) {
+    this.pairs = pairs_of(results.cases);
     this.name = results.name;
     this.anchor = fresh_anchor(this.name);
     this.texts = new Map(Object.entries(results.files));
@@ -76,10 +80,6 @@ export class Folder {
     return one ? [...listed, [this.fact("scene"), one]] : listed;
   }
 
-  get cases(): CaseView[] {
-    return this.results.cases;
-  }
-
   case_anchor(place: number): string {
     return `${this.anchor}-pair-${place}`;
   }
@@ -87,8 +87,8 @@ export class Folder {
   // This is the address of the first pair of a case file. The path may start anywhere above the folder.
   case_of_file(path: string): string | undefined {
     if (!path) return undefined;
-    const place = this.cases.findIndex(
-      ({ source }) => source !== "" && (path === source || path.endsWith(`/${source}`)),
+    const place = this.place_of(
+      (source) => source !== "" && (path === source || path.endsWith(`/${source}`)),
     );
     return place < 0 ? undefined : this.case_anchor(place);
   }
@@ -96,9 +96,13 @@ export class Folder {
   // This is the address of the first pair that a check or a sweep keeps of an algorithm.
   case_of_algorithm(algorithm: string, scalar: string, task = ""): string | undefined {
     const name = `failures/${[algorithm, scalar, task].filter(Boolean).join("-")}`;
-    const place = this.cases.findIndex(
-      ({ source }) => source.startsWith(`${name}-`) || source === `${name}.jsonl`,
+    const place = this.place_of(
+      (source) => source.startsWith(`${name}-`) || source === `${name}.jsonl`,
     );
     return place < 0 ? undefined : this.case_anchor(place);
+  }
+
+  private place_of(is_meant: (source: string) => boolean): number {
+    return this.pairs.findIndex(({ sources }) => sources.some(is_meant));
   }
 }

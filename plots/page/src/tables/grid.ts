@@ -1,9 +1,11 @@
 // A grid is a table that sorts by its headings and filters by a text. It shows a part of a long table at a time,
-// so that a hundred thousand rows do no harm; the filter looks at all of them.
+// so that a hundred thousand rows do no harm; the filter looks at all of them. Numbers have three digits, and columns
+// that say nothing are left out, until the reader asks for the file as it stands.
 import { answer_for } from "../base/anchors";
-import { button } from "../base/controls";
-import { make } from "../base/dom";
-import { count_text } from "../base/numbers";
+import { button, checkbox, controls } from "../base/controls";
+import { make, quiet } from "../base/dom";
+import { count_text, field_text } from "../base/numbers";
+import { Slices } from "../base/slices";
 import { pickable_rows } from "./picking";
 import { numeric_columns, selected_rows, type Order } from "./selection";
 import type { Row, Table } from "./table";
@@ -24,6 +26,13 @@ interface Placed extends GridOptions {
 
 const rows_at_a_time = 200;
 
+// These have seconds. Others than the last are those of times.csv.
+const is_time = (column: string, file?: string): boolean =>
+  /(^|_)seconds(_low|_high)?$/.test(column) ||
+  column === "worst_frame" ||
+  (file === "times.csv" &&
+    ["minimum", "build", "update", "find_pairs", "narrow", "convert"].includes(column));
+
 // A grid whose filter may change has a way to draw it again.
 const redraws = new WeakMap<HTMLElement, () => void>();
 export const redraw = (grid: HTMLElement): void => redraws.get(grid)?.();
@@ -35,7 +44,22 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
   const lead = (options.lead ?? [])
     .map((name) => table.columns.indexOf(name))
     .filter((i) => i >= 0);
-  const columns = [...lead, ...table.columns.keys()].filter((i, k, all) => all.indexOf(i) === k);
+  const all_columns = [...lead, ...table.columns.keys()].filter(
+    (i, k, all) => all.indexOf(i) === k,
+  );
+  // A reader of a file with several rows learns from one sentence what is the same in all of them.
+  const constant = new Set(
+    options.file && table.rows.length > 1
+      ? all_columns.filter((column) => table.is_constant(column))
+      : [],
+  );
+  if (constant.size === all_columns.length) constant.clear();
+  const telling = all_columns.filter((column) => !constant.has(column));
+  let as_in_file = false,
+    columns = telling;
+  const times = new Set(
+    all_columns.filter((column) => is_time(table.columns[column]!, options.file)),
+  );
   const numeric = numeric_columns(table);
   const order: Order = { column: -1, down: false };
   let wanted = "",
@@ -56,9 +80,21 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
     : null;
   const count = make("p", { class: "count", "aria-live": "polite" });
   const more = button("Show more", () => extend(shown + rows_at_a_time));
-  const all = button("Show all", () => extend(rows.length));
-  const headings = columns.map((column) => heading(column));
-  heads.append(...headings);
+  const all = button("Show all", () => void show_all());
+  let headings: HTMLElement[] = [];
+  const whole = checkbox("as in the file", false, (on) => set_whole(on));
+  function set_whole(on: boolean): void {
+    as_in_file = on;
+    whole.set(on);
+    columns = on ? all_columns : telling;
+    headings = columns.map((column) => heading(column));
+    heads.replaceChildren(heads.cells[0]!, ...headings);
+    same.hidden = on;
+    const kept = shown;
+    draw();
+    extend(kept);
+  }
+  const same = quiet(same_text(table, constant));
 
   function heading(column: number): HTMLElement {
     const name = table.columns[column]!;
@@ -70,7 +106,8 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
       draw();
     });
     sort.classList.add("sort");
-    const element = make("th", { scope: "col", "aria-sort": "none", "data-column": name }, sort);
+    const sorted = order.column !== column ? "none" : order.down ? "descending" : "ascending";
+    const element = make("th", { scope: "col", "aria-sort": sorted, "data-column": name }, sort);
     if (numeric.has(column)) element.classList.add("number");
     return element;
   }
@@ -89,6 +126,31 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
       body.append(element);
       picking?.join(element);
     }
+    tell();
+  }
+
+  // Rows are made in slices, and laid out once.
+  async function show_all(): Promise<void> {
+    const wanted_rows = rows,
+      wanted_columns = columns,
+      from = body.rows.length;
+    const slices = new Slices((text) => (count.textContent = text));
+    const made = document.createDocumentFragment();
+    await slices.begin("showing all rows");
+    for (let place = from; place < wanted_rows.length; ++place) {
+      const element = row_element(wanted_rows[place]!);
+      made.append(element);
+      picking?.join(element);
+      await slices.rest(place, wanted_rows.length);
+    }
+    // The reader may have asked for something else meanwhile.
+    if (rows !== wanted_rows || columns !== wanted_columns || body.rows.length !== from) return tell();
+    body.append(made);
+    shown = rows.length;
+    tell();
+  }
+
+  function tell(): void {
     count.textContent =
       `${count_text(body.rows.length)} of ${count_text(rows.length)} rows` +
       (rows.length < table.rows.length ? ` that match, of ${count_text(table.rows.length)}` : "");
@@ -101,13 +163,12 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
     const head = make("th", { scope: "row" });
     if (anchor) head.append(make("a", { href: `#${anchor}`, class: "link" }, String(row.index)));
     if (about) head.append(" ", make("a", { href: `#${about}` }, options.link_text ?? "3D"));
-    const cells = columns.map((column) =>
-      make(
-        "td",
-        { class: numeric.has(column) ? "number" : undefined },
-        table.field(row.index, column),
-      ),
-    );
+    const cells = columns.map((column) => {
+      const text = table.field(row.index, column);
+      if (!numeric.has(column)) return make("td", {}, text);
+      const short = as_in_file ? text : field_text(text, times.has(column));
+      return make("td", { class: "number", title: short === text ? undefined : text }, short);
+    });
     const element = make("tr", { id: anchor }, head, ...cells);
     return element;
   }
@@ -121,6 +182,7 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
       wanted = filter.value = "";
       draw();
     }
+    if (constant.has(table.columns.indexOf(named![2] ?? ""))) set_whole(true);
     extend(Math.max(shown, rows.indexOf(row) + 1));
     const element = document.getElementById(`${options.anchor}-row-${row.index}`);
     const column = columns.indexOf(table.columns.indexOf(named![2] ?? ""));
@@ -136,7 +198,7 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
     wanted = filter.value;
     draw();
   });
-  draw();
+  set_whole(false);
   if (options.anchor) answer_for(options.anchor, show_row);
   const element = make(
     "div",
@@ -144,7 +206,12 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
     table.cut
       ? make("p", { class: "wrong" }, "The file ends within a row, which is left out.")
       : null,
-    filter,
+    controls(
+      filter,
+      options.file ? whole.element : null,
+      options.file ? button("Download", () => download(options.file!, table.text)) : null,
+    ),
+    constant.size > 0 ? same : null,
     count,
     make(
       "div",
@@ -157,4 +224,23 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
   );
   redraws.set(element, draw);
   return element;
+}
+
+function same_text(table: Table, constant: Set<number>): string {
+  const named = (column: number): string => table.columns[column]!.replaceAll("_", " ");
+  const empty = [...constant].filter((column) => table.field(0, column) === "");
+  const same = [...constant].filter((column) => !empty.includes(column));
+  const sentences: string[] = [];
+  if (same.length > 0) {
+    const texts = same.map((column) => `${named(column)} ${table.field(0, column)}`);
+    sentences.push(`The same in all rows: ${texts.join(", ")}.`);
+  }
+  if (empty.length > 0) sentences.push(`Empty in all rows: ${empty.map(named).join(", ")}.`);
+  return sentences.join(" ");
+}
+
+function download(name: string, text: string): void {
+  const address = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+  make("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }

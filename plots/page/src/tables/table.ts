@@ -59,6 +59,27 @@ export class Table {
     return place === undefined ? "" : this.field(row, place);
   }
 
+  // This is the whole file.
+  get text(): string {
+    return this.source;
+  }
+
+  // All rows have the same text in the column.
+  is_constant(column: number): boolean {
+    const width = this.columns.length + 1;
+    const first = this.starts[column] ?? 0;
+    const length = (this.starts[column + 1] ?? 0) - first;
+    for (let row = 1; row < this.rows.length; ++row) {
+      const start = this.starts[row * width + column]!;
+      if (this.starts[row * width + column + 1]! - start !== length) return false;
+      // The last letter is the separator.
+      for (let i = 0; i + 1 < length; ++i) {
+        if (this.source.charCodeAt(start + i) !== this.source.charCodeAt(first + i)) return false;
+      }
+    }
+    return true;
+  }
+
   // A filter searches in the whole line of a row.
   line(row: number): string {
     const at = row * (this.columns.length + 1);

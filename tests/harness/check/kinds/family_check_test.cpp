@@ -19,6 +19,7 @@
 #include "tests/algorithms/one_in.h"
 #include "tests/harness/check/kinds/planted_kinds.h"
 #include "tests/harness/input_fault.h"
+#include "tests/harness/stopped_folder.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -162,13 +163,12 @@ TEST_F(FamilyCheck, GoesOnWhereItWasStopped) {
   const std::string whole = folder.read("out/families.csv");
   // As if it had been stopped in its second job.
   const std::size_t second = whole.find("\n" + request.families[1]->name + ",") + 1;
+  stop_folder(folder.path() / "out", 1,
+              {{"grades.csv", folder.read("out/grades.csv").size()},
+               {"variants.csv", folder.read("out/variants.csv").size()},
+               {"jobs.csv", folder.read("out/jobs.csv").size()},
+               {"families.csv", second}});
   folder.write("out/families.csv", whole.substr(0, second + 20));
-  folder.write(
-      "out/progress.csv",
-      fmt::format("name,value\nunits,1\ngrades.csv,{}\nvariants.csv,{}\njobs.csv,{}\n"
-                  "families.csv,{}\n",
-                  folder.read("out/grades.csv").size(), folder.read("out/variants.csv").size(),
-                  folder.read("out/jobs.csv").size(), second));
   request.resume = true;
   const auto result = check::run_check(request);
   EXPECT_EQ(folder.read("out/families.csv"), whole);

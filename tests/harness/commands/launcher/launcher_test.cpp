@@ -1,0 +1,267 @@
+// Tests of the launcher, with stubs for cmake, ninja, apt and the programs that ninja makes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "harness/files/toml_table.h"
+#include "tests/harness/commands/program.h"
+#include "tests/project_folder.h"
+
+namespace touchstone {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Row {
+  std::string program, name, heading;
+};
+
+const std::vector<Row> table = {
+#define TOUCHSTONE_COMMAND(program, name, takes, heading, about) {#program, #name, heading},
+#include "harness/commands/commands.inl"
+};
+
+const std::vector<std::string> keys_of_more = {
+#define TOUCHSTONE_MORE_KEY(name, key) key,
+#include "harness/commands/commands.inl"
+};
+
+// What a line of the launcher had built, and what it ran then.
+struct Launched {
+  int status = -1;
+  std::string text;
+  std::set<std::string> asked;  // targets of ninja
+  std::string ran;              // the line of the program that was run at last
+};
+
+class Launcher : public testing::Test {
+ protected:
+  Launcher() {
+    make_folders({"bin", "tree/harness/commands", "tree/plots/page", "tree/algorithms"});
+    fs::copy(project("touchstone"), path("tree/touchstone"));
+    fs::copy(project("harness/commands/commands.inl"), path("tree/harness/commands/commands.inl"));
+    fs::create_directory_symlink(project("datasets"), path("tree/datasets"));
+    for (const std::string name : {"node", "npm", "apt-get"}) write_program("bin/" + name, "");
+    write_program("bin/sudo", R"("$@")");
+    write_program("bin/ctest", R"(echo "ctest $*" >>"$LOG/ran")");
+    write_program("bin/cmake", "mkdir -p build/release && touch build/release/build.ninja");
+    // Only what it is asked for is there when it has ended.
+    write_program("bin/ninja", R"(
+      folder=$2/harness
+      shift 2
+      rm -rf "$folder" && mkdir -p "$folder"
+      printf '%s\n' "$@" >>"$LOG/asked"
+      for target; do
+        printf '#!/bin/sh\necho "%s $*" >>"$LOG/ran"\n' "$target" >"$folder/$target"
+        chmod +x "$folder/$target"
+      done)");
+    write_program("tree/plots/python", R"([[ $1 == -c ]] || echo "plot $*" | tee -a "$LOG/ran")");
+    write_program("tree/plots/page/make", R"(mkdir -p "${1%/*}" && touch "$1")");
+  }
+
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  static std::string project(const std::string& name) {
+    return std::string(project_folder) + "/" + name;
+  }
+  void make_folders(const std::vector<std::string>& names) const {
+    for (const std::string& name : names) fs::create_directories(path(name));
+  }
+  void write_program(const std::string& name, const std::string& text) const {
+    folder_.write(name, "#!/bin/bash\n" + text + "\n");
+    fs::permissions(path(name), fs::perms::owner_all);
+  }
+
+  Launched launch(const std::string& words) const {
+    for (const char* name : {"asked", "ran"}) fs::remove(folder_.path() / name);
+    const Ran ran =
+        run_shell("cd " + path("tree") + " && LOG=" + path("") + " PATH=" + path("bin") +
+                  ":$PATH TOUCHSTONE_PRESET=release ./touchstone " + words);
+    Launched launched{ran.status, ran.text, {}, {}};
+    std::istringstream asked(folder_.read("asked"));
+    for (std::string target; std::getline(asked, target);) launched.asked.insert(target);
+    std::istringstream lines(folder_.read("ran"));
+    for (std::string line; std::getline(lines, line);) launched.ran = line;
+    return launched;
+  }
+
+  // Expects that the line is done by a program that was built for it.
+  void expect_built(const std::string& words, const std::set<std::string>& programs) const {
+    const Launched launched = launch(words);
+    EXPECT_EQ(launched.status, 0) << words << "\n" << launched.text;
+    EXPECT_TRUE(std::ranges::includes(launched.asked, programs))
+        << words << " had built only " << testing::PrintToString(launched.asked);
+    EXPECT_NE(launched.ran, "") << words;
+  }
+
+  TemporaryFolder folder_;
+};
+
+const std::set<std::string> first = {"touchstone"};
+const std::set<std::string> both = {"touchstone", "touchstone_more"};
+
+// The lines of the table of commands in README.md.
+std::vector<std::string> lines_of_readme() {
+  std::vector<std::string> lines;
+  std::ifstream file(std::string(project_folder) + "/README.md");
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("| `")) continue;
+    std::string cell = line.substr(2, line.find('|', 2) - 2);
+    for (std::smatch found; std::regex_search(cell, found, std::regex("`([a-z][^`/]*)`"));) {
+      std::string words = found[1];
+      std::erase_if(words, [](char c) { return c == '[' || c == ']'; });
+      lines.push_back(words);
+      cell = found.suffix();
+    }
+  }
+  return lines;
+}
+
+TEST_F(Launcher, BuildsWhatEveryCommandOfTheReadmeRuns) {
+  std::map<std::string, std::string> program;
+  for (const Row& row : table) program[row.name] = row.program;
+  std::vector<std::string> lines = lines_of_readme();
+  lines.emplace_back("test");
+  std::set<std::string> seen;
+  for (const std::string& line : lines) {
+    const std::string name = line.substr(0, line.find(' '));
+    ASSERT_TRUE(program.contains(name)) << "'" << line << "' of README.md is not in commands.inl";
+    seen.insert(name);
+    if (name == "setup") continue;
+    std::set<std::string> programs = program[name] == "touchstone_more" ? both : first;
+    if (name == "test") programs = {"all"};
+    if (name == "bench") programs = {"touchstone_bench"};
+    expect_built(line, programs);
+  }
+  for (const Row& row : table)
+    EXPECT_TRUE(seen.contains(row.name)) << row.name << " of commands.inl";
+}
+
+TEST_F(Launcher, BuildsWhatEveryFileOfTheDatasetsNeeds) {
+  int campaigns = 0, others = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(project("datasets"))) {
+    if (entry.path().extension() != ".toml") continue;
+    const bool is_other = std::ranges::any_of(
+        keys_of_more, [&](const auto& key) { return files::has_key(entry.path(), key); });
+    ++(is_other ? others : campaigns);
+    expect_built("run " + entry.path().string() + " --out x", is_other ? both : first);
+  }
+  EXPECT_GT(campaigns, 5);
+  EXPECT_GT(others, 5);
+}
+
+TEST_F(Launcher, KnowsTheKeysOfAFileInEverySpelling) {
+  for (const std::string& key : keys_of_more) {
+    for (const std::string& text :
+         {"[" + key + "]\n", "[[" + key + "]]\n", "name = 'x'\n  [ " + key + " ]\n",
+          key + " = {}\n", key + ".seed = 1\n", "\"" + key + "\" = {}\n",
+          "\xEF\xBB\xBF[" + key + "]\n", "['" + key + "'.x]\r\n"}) {
+      const fs::path file = folder_.write("file.toml", text);
+      ASSERT_TRUE(files::has_key(file, key)) << text;
+      expect_built("run " + file.string(), both);
+    }
+  }
+  expect_built("--isa avx2 run --plan DIR --shard 1", both);
+  expect_built("run --plan=DIR --shard=1", both);
+  expect_built("run --report", both);
+  expect_built("run /dev/stdin </dev/null", both);
+  // A comparison does not wait for the second program.
+  const fs::path campaign = folder_.write("file.toml", "# check\nname = 'cells'\n[[group]]\n");
+  EXPECT_EQ(launch("run " + campaign.string()).asked, first);
+  EXPECT_EQ(launch("run").asked, first);
+}
+
+TEST_F(Launcher, HelpsWithoutBuilding) {
+  const std::string line =
+      "cd / && LOG=" + path("") + " PATH=/usr/bin:/bin " + path("tree/touchstone") + " ";
+  const Ran ran = run_shell(line + "--help");
+  EXPECT_EQ(ran.status, 0);
+  std::set<std::string> headings;
+  for (const Row& row : table) {
+    headings.insert(row.heading);
+    EXPECT_THAT(ran.text, HasSubstr("\n" + row.heading + "\n"));
+    EXPECT_THAT(ran.text, HasSubstr("\n  " + row.name + " "));
+    const Ran of_one = run_shell(line + row.name + " --help");
+    EXPECT_EQ(of_one.status, 0) << of_one.text;
+    EXPECT_NE(of_one.text, "") << row.name;
+  }
+  EXPECT_EQ(headings.size(), 5u);
+  EXPECT_FALSE(fs::exists(path("tree/build")));
+}
+
+TEST_F(Launcher, RefusesUnknownCommandsBeforeItBuilds) {
+  const auto refuse = [&](const std::string& words, const std::string& text) {
+    const Launched launched = launch(words);
+    EXPECT_EQ(launched.status, 2) << words;
+    EXPECT_THAT(launched.text, HasSubstr(text)) << words;
+  };
+  refuse("runn", "touchstone: no command 'runn'; did you mean run?\n");
+  refuse("--isa avx2 qeury x", "no command 'qeury'; did you mean query?");
+  refuse("xyzzy", "no command 'xyzzy'; expected one of: run compare ");
+  refuse("", "found no command");
+  refuse("--isa avx2 test", "found '--isa' before `test`");
+  std::ofstream(path("tree/harness/commands/commands.inl"), std::ios::app)
+      << "TOUCHSTONE_RENAMED(asks, \"query FILE --in MESH\")\n";
+  refuse("asks x", "touchstone: `asks` is now `./touchstone query FILE --in MESH`\n");
+  std::ofstream(path("tree/harness/commands/commands.inl"), std::ios::app)
+      << "TOUCHSTONE_COMMAND(touchstone, two words)\n";
+  refuse("run", "found 'TOUCHSTONE_COMMAND(touchstone, two words)'; expected a row");
+  EXPECT_FALSE(fs::exists(path("tree/build")));
+}
+
+TEST_F(Launcher, WaitsForBuildsAloneAndSaysForWhose) {
+  ASSERT_EQ(launch("list").status, 0);
+  write_program("hold", R"(
+    exec 8>>tree/build/release/.lock
+    flock 8
+    echo 'process 7 since 10:00:00, ./touchstone check' >tree/build/release/.lock
+    LOG=$PWD PATH=$PWD/bin:$PATH tree/touchstone list >out 2>&1 8>&- &
+    until [[ -s out ]]; do sleep 0.05; done
+    exec 8>&-
+    wait $!)");
+  EXPECT_EQ(run_shell("cd " + path("") + " && ./hold").status, 0);
+  EXPECT_THAT(folder_.read("out"), HasSubstr("process 7 since 10:00:00, ./touchstone check\n"));
+  EXPECT_THAT(folder_.read("out"), HasSubstr("Ctrl-C stops waiting"));
+  // A program that runs holds nothing.
+  write_program("bin/ninja", R"(
+    printf '#!/bin/sh\nflock -n "${0%%/harness*}/.lock" echo free\n' >"$2/harness/touchstone")");
+  EXPECT_THAT(launch("list").text, HasSubstr("free\n"));
+}
+
+TEST_F(Launcher, SaysHowFarABuildIs) {
+  const std::string stub = folder_.read("bin/ninja");
+  write_program("bin/ninja", stub + "\nfor ((i = 1; i <= 40; ++i)); do echo \"[$i/40] x.o\"; done");
+  const Launched launched = launch("list");
+  EXPECT_THAT(launched.text, HasSubstr("touchstone: building 40 files\n"));
+  EXPECT_THAT(launched.text, HasSubstr("touchstone: built 20 of 40 files in "));
+  EXPECT_THAT(launched.text, HasSubstr("touchstone: built 40 of 40 files in "));
+  EXPECT_THAT(launched.text, Not(HasSubstr("x.o")));
+  write_program("bin/ninja", "echo '[1/2] x.o'; echo 'x.cpp:1: error'; exit 1");
+  const Launched failed = launch("list");
+  EXPECT_EQ(failed.status, 2);
+  EXPECT_THAT(failed.text, HasSubstr("x.cpp:1: error\ntouchstone: the build failed"));
+  EXPECT_EQ(failed.ran, "");
+}
+
+TEST_F(Launcher, SaysThatAnInstallationWasInterrupted) {
+  write_program("tree/plots/python", "exit 127");
+  write_program("bin/apt-get",
+                "echo \"E: dpkg was interrupted, run 'dpkg --configure -a'\"; exit 100");
+  const Launched launched = launch("plot results");
+  EXPECT_EQ(launched.status, 2);
+  EXPECT_THAT(launched.text, HasSubstr("installing 1 package through apt: python3-matplotlib\n"));
+  EXPECT_THAT(launched.text, HasSubstr("dpkg --configure -a` ends it, then try again"));
+}
+
+}  // namespace
+}  // namespace touchstone
