@@ -72,7 +72,7 @@ struct SpeedUpRow {
   MedianInterval speed_up;
 };
 
-// An algorithm on an executor against itself on the one that the campaign names first, in the same set.
+// An algorithm on another executor against itself on the usual one, in the same set.
 struct ExecutorRow {
   SetKey key;
   std::string algorithm;

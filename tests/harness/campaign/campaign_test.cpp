@@ -81,8 +81,9 @@ TEST_F(CampaignFile, ExecutorsAreChosen) {
   EXPECT_THAT(executors("executor = 'onetbb'"), ElementsAre(ExecutorKind::onetbb));
   EXPECT_THAT(executors("executor = ['onetbb', 'crew']"),
               ElementsAre(ExecutorKind::onetbb, ExecutorKind::crew));
-  EXPECT_THAT(fault("scenes = 'a.toml'\nexecutor = 'tbb'"),
-              testing::HasSubstr("c.toml:2: executor: found 'tbb'; expected one of crew, onetbb"));
+  EXPECT_THAT(
+      fault("scenes = 'a.toml'\nexecutor = 'tbb'"),
+      testing::HasSubstr("c.toml:2: executor: found \"tbb\"; expected one of crew, onetbb"));
   EXPECT_NE(campaign::description(read("scenes = 'a.toml'\nexecutor = 'onetbb'")),
             campaign::description(read("scenes = 'a.toml'")));
   EXPECT_EQ(campaign::description(read("scenes = 'a.toml'\nexecutor = 'crew'")),
