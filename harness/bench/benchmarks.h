@@ -21,6 +21,11 @@ void register_oracle_benchmarks();
 // C library gave; what a library takes from elsewhere is not in it.
 void register_mesh_benchmarks();
 
+// executors/KIND/CALL: one loop per iteration on two pinned threads. CALL is `fork-join` of two empty
+// tasks; `shared/Nus` of N tasks of a microsecond, shared by the threads in any case; `loop/Nus` of the
+// same, by the caller alone where the executor finds that faster.
+void register_executor_benchmarks();
+
 // kernels/...: support functions, sorting and tests of boxes.
 void register_kernel_benchmarks();
 

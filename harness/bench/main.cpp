@@ -1,5 +1,5 @@
-// Kernel benchmarks under Google Benchmark: every algorithm of the registry, the oracle and the
-// shared kernels, for profiling one at a time (--benchmark_filter=narrow/gjk/double/box-box).
+// Kernel benchmarks under Google Benchmark: every algorithm of the registry, the oracle, the
+// executors and the shared kernels, for profiling one at a time (--benchmark_filter=narrow/gjk/double/box-box).
 // `touchstone run` times whole scenes and isolates crashes and hangs. With --instructions=FILE.csv
 // the program counts the instructions of a query instead; --benchmark_filter then takes a regular
 // expression.
@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   touchstone::bench::register_narrow_benchmarks();
   touchstone::bench::register_oracle_benchmarks();
   touchstone::bench::register_mesh_benchmarks();
+  touchstone::bench::register_executor_benchmarks();
   touchstone::bench::register_kernel_benchmarks();
   touchstone::bench::register_harness_overhead_benchmarks();
   benchmark::RunSpecifiedBenchmarks();

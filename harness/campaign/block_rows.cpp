@@ -25,6 +25,7 @@ record::RawRow BlockRows::empty(std::size_t c, std::size_t s, std::size_t frame)
   record::RawRow row = candidate.broad != nullptr
                            ? context_.row(frame, *candidate.broad, record::Phase::find_pairs)
                            : context_.row(frame, *candidate.narrow);
+  row.executor = candidate.executor;
   if (candidate.control) row.twin = true;
   if (const measure::NarrowSet* const pairs = schedule_.pairs[s]; pairs != nullptr) {
     row.broad = pairs->broad;

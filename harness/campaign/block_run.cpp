@@ -58,9 +58,10 @@ void BlockRun::take_over(const record::RawRow& row) {
 
 measure::MeasurePlan BlockRun::plan() const {
   const CampaignGroup& group = *context_.block->group;
-  const int threads = context_.block->threads;
   measure::MeasurePlan plan;
   for (const Candidate& candidate : schedule_.candidates) {
+    const measure::Threads threads = {context_.block->threads,
+                                      candidate.executor.value_or(usual_executor)};
     plan.contestants.push_back(
         {candidate.label(), candidate.control,
          candidate.broad != nullptr
@@ -82,7 +83,7 @@ void BlockRun::run(const std::function<bool()>& commit) {
 }
 
 const Checked& BlockRun::checked(std::size_t c, std::size_t set) const {
-  return *checks_.find(schedule_.candidates[c].label(), schedule_.pairs[set]);
+  return *checks_.find(schedule_.candidates[c].algorithm(), schedule_.pairs[set]);
 }
 
 // Plays every frame once, to compare the answers in this process with those of the check.

@@ -111,6 +111,10 @@ std::string description(const Campaign& campaign) {
                         group.time_limit, group.memory_limit, group.width, group.seconds,
                         group.squares.value_or(0));
     if (group.limit) text += " limit";
+    for (const ExecutorKind kind : group.executors) {
+      if (group.executors.size() > 1 || kind != ExecutorKind::crew)
+        text += fmt::format(" executor {}", to_string(kind));
+    }
     if (group.rounds) text += fmt::format(" rounds {}", *group.rounds);
     if (group.processes != 3) text += fmt::format(" processes {}", group.processes);
     text += "\n";

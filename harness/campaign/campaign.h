@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/isa.h"
 #include "algorithms/registry.h"
 #include "harness/measure/phases/narrow_choice.h"
@@ -64,6 +65,8 @@ struct CampaignGroup {
   int frames = -1;
   std::vector<scene::BoxKind> boxes = {scene::BoxKind::tight};
   std::vector<int> threads = {2};
+  // Each algorithm on each of them is a contestant of the same sets, where there are several threads.
+  std::vector<ExecutorKind> executors = {usual_executor};
   // The highest level of vector instructions for our kernels; none: the limit of the run.
   std::vector<std::optional<Isa>> isa = {std::nullopt};
   bool rebuild = false;  // true if every frame is built anew instead of updated

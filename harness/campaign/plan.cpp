@@ -34,8 +34,13 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
     };
     std::vector<std::string> broad;
     for (const BroadPhaseEntry* entry : context.broad()) broad.push_back(entry->info.name);
-    std::vector<std::string> listed = broad;
-    if (group.limit && !broad.empty()) listed.emplace_back(stats::limit_label);
+    std::vector<std::string> listed;
+    const auto list = [&](std::vector<std::string>& labels, const std::string& algorithm) {
+      for (const auto executor : context.executors())
+        labels.push_back(record::label_on(algorithm, executor));
+    };
+    for (const std::string& name : broad) list(listed, name);
+    if (group.limit && !broad.empty()) list(listed, stats::limit_label);
     add("broad phases", listed);
     // Without narrow phases the first frames determine the time of all.
     const bool has_pairs = context.has_narrow();
@@ -63,7 +68,7 @@ std::vector<PlannedBlock> plan_campaign(const Campaign& campaign) {
         for (const measure::NarrowChoice* choice : group.choices()) {
           if (offer(*choice, set, input) == measure::Offer::taken &&
               context.admits(*choice, source, set.task, set.kind_name())) {
-            narrow.push_back(Candidate{.broad = nullptr, .narrow = choice}.label());
+            list(narrow, choice->label());
           }
         }
         add(fmt::format("{} {}{}{}", to_string(set.task), set.kind_name(),

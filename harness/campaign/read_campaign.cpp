@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, 5> task_names = {"intersect", "distance",
                                                         "signed", "contacts"};
 constexpr std::array<std::string_view, 3> isa_names = {"all", "avx2", "baseline"};
 enum class IsaChoice : std::uint8_t { all, avx2, baseline };
+constexpr std::array<std::string_view, 2> executor_names = {"crew", "onetbb"};
 constexpr std::array<std::string_view, 2> pairing_names = {"separate", "product"};
 constexpr std::int64_t greatest_count = 100'000'000;
 
@@ -249,6 +250,7 @@ CampaignGroup read_group(Settings settings, const std::filesystem::path& folder,
   for (const std::int64_t threads : settings.integers("threads", 1, 1024, 2)) {
     group.threads.push_back(static_cast<int>(threads));
   }
+  group.executors = settings.choices<ExecutorKind>("executor", executor_names, {usual_executor});
   group.isa.clear();
   for (const IsaChoice choice : settings.choices<IsaChoice>("isa", isa_names, {IsaChoice::all})) {
     group.isa.push_back(limit_of(choice));

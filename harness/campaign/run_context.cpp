@@ -58,6 +58,15 @@ std::vector<const BroadPhaseEntry*> RunContext::broad() const {
   return entries;
 }
 
+std::vector<std::optional<ExecutorKind>> RunContext::executors() const {
+  if (block->threads == 1) return {std::nullopt};
+  std::vector<std::optional<ExecutorKind>> kinds;
+  for (const ExecutorKind kind : block->group->executors) {
+    if (std::ranges::find(kinds, std::optional(kind)) == kinds.end()) kinds.emplace_back(kind);
+  }
+  return kinds;
+}
+
 bool RunContext::admits(const BroadPhaseEntry& entry) const {
   // The scene lists its pairs, so a broad phase has no work.
   if (!scene->pairs.empty()) return false;

@@ -47,6 +47,8 @@ struct RunContext {
   record::RawRow row(std::size_t frame, const measure::NarrowChoice& choice) const;
   // Returns the broad phases of the group that its rules admit, the lower bound last.
   std::vector<const BroadPhaseEntry*> broad() const;
+  // Returns the executors on which each algorithm is timed; a single empty one at one thread.
+  std::vector<std::optional<ExecutorKind>> executors() const;
   // Returns true if the campaign's rules let it take part.
   bool admits(const BroadPhaseEntry& entry) const;
   bool admits(const measure::NarrowChoice& choice, const std::string& broad, record::QueryTask task,

@@ -77,9 +77,11 @@ measure::MeasuredSet empty_set(const CampaignGroup& group, std::size_t frames) {
 
 }  // namespace
 
-std::string Candidate::label() const {
+std::string Candidate::algorithm() const {
   return broad != nullptr ? broad->info.name : narrow->label();
 }
+
+std::string Candidate::label() const { return record::label_on(algorithm(), executor); }
 
 Schedule make_schedule(const RunContext& context, const measure::BlockInput& input,
                        std::span<const measure::NarrowSet> narrow, const CheckTable& checks) {
@@ -87,13 +89,15 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
   const std::size_t frames = input.frames.size();
   Schedule schedule;
   const auto is_in = [&](const Candidate& candidate, const measure::NarrowSet* set) {
-    const Checked* checked = checks.find(candidate.label(), set);
+    const Checked* checked = checks.find(candidate.algorithm(), set);
     return checked != nullptr && !checked->out;
   };
   std::vector<Candidate> candidates;
   for (const BroadPhaseEntry* entry : context.broad()) {
-    const Candidate candidate{.broad = entry};
-    if (is_in(candidate, nullptr)) candidates.push_back(candidate);
+    for (const std::optional<ExecutorKind> executor : context.executors()) {
+      const Candidate candidate{.broad = entry, .executor = executor};
+      if (is_in(candidate, nullptr)) candidates.push_back(candidate);
+    }
   }
   if (!candidates.empty()) {
     measure::MeasuredSet set = empty_set(group, frames);
@@ -105,11 +109,13 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
     const measure::NarrowSet& pairs = narrow[number];
     candidates.clear();
     for (const measure::NarrowChoice* choice : group.choices()) {
-      const Candidate candidate{.narrow = choice};
-      if (offer(*choice, pairs, input) == measure::Offer::taken &&
-          context.admits(*choice, pairs.broad, pairs.task, pairs.kind_name()) &&
-          is_in(candidate, &pairs)) {
-        candidates.push_back(candidate);
+      if (offer(*choice, pairs, input) != measure::Offer::taken ||
+          !context.admits(*choice, pairs.broad, pairs.task, pairs.kind_name())) {
+        continue;
+      }
+      for (const std::optional<ExecutorKind> executor : context.executors()) {
+        const Candidate candidate{.narrow = choice, .executor = executor};
+        if (is_in(candidate, &pairs)) candidates.push_back(candidate);
       }
     }
     if (candidates.empty()) continue;
@@ -132,7 +138,8 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
     measure::MeasuredSet& set = schedule.sets[s];
     std::vector<double> means;  // seconds a frame
     for (const std::size_t member : set.members) {
-      const Checked& checked = *checks.find(schedule.candidates[member].label(), schedule.pairs[s]);
+      const Checked& checked =
+          *checks.find(schedule.candidates[member].algorithm(), schedule.pairs[s]);
       double sum = 0;
       for (std::size_t frame = set.starts.front(); frame < frames; ++frame) {
         sum += checked.seconds[frame];

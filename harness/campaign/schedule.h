@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,9 +18,11 @@ struct Candidate {
   const BroadPhaseEntry* broad = nullptr;  // null for a narrow phase
   const measure::NarrowChoice* narrow = nullptr;
   bool control = false;
+  std::optional<ExecutorKind> executor = {};  // empty at one thread
 
   const AlgorithmInfo& info() const { return broad != nullptr ? broad->info : narrow->info(); }
-  std::string label() const;  // the label, which is equal for an algorithm and its control
+  std::string algorithm() const;  // the label of the algorithm, by which the check knows it
+  std::string label() const;      // on its executor; equal for a candidate and its control
   bool operator==(const Candidate&) const = default;
 };
 

@@ -33,6 +33,7 @@ struct RunOptions {
   std::vector<Precision> scalars = {Precision::float32, Precision::float64};
   std::vector<scene::BoxKind> boxes = {scene::BoxKind::tight};
   std::vector<int> threads = {2};
+  std::vector<ExecutorKind> executors = {usual_executor};
   std::vector<std::int64_t> counts = {-1};
   std::vector<std::int64_t> seeds = {-1};
   int frames = -1;
@@ -66,6 +67,7 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   group.seconds = options.seconds;
   group.boxes = options.boxes;
   group.threads = options.threads;
+  group.executors = options.executors;
   group.rebuild = options.rebuild;
   group.broad = kinds::select(registry::entries<BroadPhaseEntry>(),
                               kinds::split_names(options.broad), "broad phase");
@@ -235,6 +237,8 @@ void add_run(Arguments command) {
                              .within(1, 1024)
                              .show_default()
                              .group(one);
+  add(command.some_of("--executor", options->executors, executor_choices(),
+                      "Whose threads: ours (crew, the default), oneTBB's, or both"));
   add(command.numbers("--count", options->counts, "Bodies of a generated scene").positive());
   add(command.numbers("--seed", options->seeds, "Seeds of a generated scene").not_negative());
   add(command.number("--frames", options->frames, "Frames").positive());

@@ -53,6 +53,12 @@ const Arguments::Choices<scene::BoxKind>& box_choices() {
   return choices;
 }
 
+const Arguments::Choices<ExecutorKind>& executor_choices() {
+  static const Arguments::Choices<ExecutorKind> choices = {{"crew", ExecutorKind::crew},
+                                                           {"onetbb", ExecutorKind::onetbb}};
+  return choices;
+}
+
 void add_scene_overrides(Arguments& command, scene::SceneOverrides& overrides) {
   command.number("--count", overrides.count, "Bodies of a generated scene").positive();
   command.number("--seed", overrides.seed, "Seed of a generated scene").not_negative();

@@ -35,6 +35,7 @@ Option add_time_limit(Arguments& command, double& seconds,
 Option add_depth_error(Arguments& command, double& error);
 // Adds --threads of an executor.
 Option add_threads(Arguments& command, int& threads, const std::string& help = "Threads");
+const Arguments::Choices<ExecutorKind>& executor_choices();
 
 // Adds the options of the commands that run narrow phases on generated cases in many processes.
 // `folder` is the results folder's default name, `work` is the subject that --resume continues.

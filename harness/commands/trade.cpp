@@ -48,6 +48,9 @@ int run_motion_trade(const TradeOptions& options) {
         "--motion asks which pairs touch in a step, and its error is the share of hits missed; "
         "expected neither --task nor --error with it");
   }
+  if (asked.executor != ExecutorKind::crew) {
+    throw base::InputError("--motion runs its steps on the crew; expected no --executor with it");
+  }
   if (!options.out.empty()) record::expect_writable(options.out);
   const cells::MotionTrade trade = cells::plan_motion_trade(
       cells::default_motion_trade(options.scene, asked.overrides, asked.threads), asked.seconds);
@@ -87,6 +90,8 @@ int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, 
 void add_trade_axes(Arguments& command, trade::TradeRequest& request) {
   command.one_of("--task", request.task, trade_task_choices(), "What is asked");
   add_threads(command, request.threads);
+  command.one_of("--executor", request.executor, executor_choices(),
+                 "Whose threads: ours (crew, the default) or oneTBB's");
   command.number("--frames", request.overrides.frames, "Frames").positive();
   add_scene_overrides(command, request.overrides);
   command.number("--seconds", request.seconds, "For all of it, about").positive().show_default();

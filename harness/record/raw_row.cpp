@@ -50,10 +50,17 @@ std::string narrow_label(std::string_view name, std::string_view scalar, double 
   return label;
 }
 
-std::string label_of(const RawRow& row) {
+std::string algorithm_label(const RawRow& row) {
   if (!row.is_narrow()) return row.broad;
   return narrow_label(row.narrow, row.scalar ? to_string(*row.scalar) : "", row.tolerance,
                       row.duality_gap, row.is_warm(), row.batch);
 }
+
+std::string label_on(std::string algorithm, std::optional<ExecutorKind> executor) {
+  if (executor.value_or(usual_executor) == usual_executor) return algorithm;
+  return fmt::format("{} {}", algorithm, to_string(*executor));
+}
+
+std::string label_of(const RawRow& row) { return label_on(algorithm_label(row), row.executor); }
 
 }  // namespace touchstone::record

@@ -8,6 +8,7 @@
 
 #include "algorithms/algorithm_info.h"
 #include "algorithms/broad_phase_work.h"
+#include "algorithms/core/executor/executor.h"
 #include "algorithms/core/isa.h"
 #include "algorithms/core/outcome.h"
 #include "harness/record/query_task.h"
@@ -66,6 +67,7 @@ struct RawRow {
   double tolerance = Outcome::none, duality_gap = Outcome::none;
   std::optional<bool> twin;
   std::int64_t threads = 0;
+  std::optional<ExecutorKind> executor;  // empty: one thread, or it is not known
   std::optional<Isa> isa;
   std::optional<Isa> isa_limit;  // empty: the campaign sets no limit
   std::optional<bool> rebuild;   // true if the campaign builds every frame anew
@@ -153,6 +155,10 @@ void columns(Row& row, Visit visit) {
   visit("threads", row.threads,
         "Width of the executor. Threads are pinned where there are more than one. Peers' broad "
         "phases use one thread, except Embree's.");
+  visit("executor", newer(row.executor),
+        "Samples on several threads: whose threads they are, those of our `crew` or of `onetbb`. "
+        "Empty in check rows, which have one thread, and in older files, whose threads are the "
+        "crew's.");
   visit("isa", row.isa, "Vector instructions that our kernels used.");
   visit("isa_limit", newer(row.isa_limit),
         "The most vector instructions that the campaign allows; empty: no limit.");
@@ -261,6 +267,10 @@ void columns(Row& row, Visit visit) {
 std::string narrow_label(std::string_view name, std::string_view scalar, double tolerance,
                          double duality_gap, bool warm, std::int64_t batch);
 // Returns the label of the row's algorithm: a broad phase's name, or a narrow phase's label.
+std::string algorithm_label(const RawRow& row);
+// Returns this label with the executor behind it where that is not the usual one: "auto onetbb".
+std::string label_on(std::string algorithm, std::optional<ExecutorKind> executor);
+// Returns the label of the row's contestant, the algorithm on its executor.
 std::string label_of(const RawRow& row);
 
 }  // namespace touchstone::record

@@ -34,6 +34,18 @@ bool is_failure(std::optional<record::RowStatus> status) {
          status == record::RowStatus::wrong;
 }
 
+// Leaves out the contestants that have checks alone, if their algorithms were timed on executors that
+// are in the label.
+void leave_out_checks_alone(SampleSet& set) {
+  std::set<std::string> timed;
+  for (const Contestant& contestant : set.contestants) {
+    if (contestant.executor) timed.insert(contestant.algorithm);
+  }
+  std::erase_if(set.contestants, [&](const Contestant& contestant) {
+    return !contestant.executor && !contestant.failure && timed.contains(contestant.algorithm);
+  });
+}
+
 class Reader {
  public:
   // `machines`: the machine of each block; empty for results of one machine.
@@ -52,6 +64,7 @@ class Reader {
       // A file that was cut may end with a set that has only a twin.
       std::erase_if(found.results.sets,
                     [](const SampleSet& set) { return set.contestants.empty(); });
+      for (SampleSet& set : found.results.sets) leave_out_checks_alone(set);
       of_machines[machine] = std::move(found.results);
     }
     return of_machines;
@@ -157,7 +170,14 @@ class Reader {
       const auto at = std::ranges::find(set.contestants, label, &Contestant::label);
       found = at != set.contestants.end() ? &*at : &set.contestants.emplace_back();
     }
+    if (found->label.empty() && !row.is_twin()) {
+      // The check, which has one thread, is that of the algorithm on each executor.
+      const Contestant* const checked = set.find(record::algorithm_label(row));
+      if (checked != nullptr && checked != found) found->checks = checked->checks;
+    }
     found->label = label;
+    found->algorithm = record::algorithm_label(row);
+    if (row.executor) found->executor = row.executor;
     found->batch = row.batch;
     if (row.depth_bound.value_or(false)) found->depth_is_bound = true;
     if (!found->origin) {

@@ -100,13 +100,17 @@ struct Contestant {
   std::string label;  // a label such as "sweep-one-axis" or "gjk double 1e-06"
   std::optional<record::RowOrigin> origin;  // empty if an older file does not have it
   bool depth_is_bound = false;              // its depths are upper bounds by design
-  std::int64_t batch = -1;  // greatest number of pairs of a call; -1: the usual number
+  std::string algorithm;  // its label without the executor; empty: the label has none
+  std::optional<ExecutorKind> executor;  // of its samples; empty: one thread, or not known
+  std::int64_t batch = -1;               // greatest number of pairs of a call; -1: the usual number
   std::vector<Sample> samples;
   std::vector<Check> checks;
   // Set if the status of a row is crashed, timed_out, unsupported or wrong.
   std::optional<record::RowStatus> failure;
 
   bool is_ours() const { return origin == record::RowOrigin::ours; }
+  const std::string& name() const { return algorithm.empty() ? label : algorithm; }
+  bool is_limit() const { return label == limit_label || origin == record::RowOrigin::limit; }
 };
 
 struct SampleSet {

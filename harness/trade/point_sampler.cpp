@@ -8,10 +8,10 @@
 namespace touchstone::trade {
 
 PointSampler::PointSampler(const SceneFrames& frames, const TradePoint& point, Task task,
-                           int threads)
+                           int threads, ExecutorKind executor)
     : frames_(&frames),
       point_(point),
-      executor_(threads, Pinning::one_a_thread),
+      executor_(threads, Pinning::one_a_thread, executor),
       pipeline_(frames, *point_.stand_ins, point_.configuration, task, executor_) {}
 
 void PointSampler::play_up_to(std::size_t frame) {

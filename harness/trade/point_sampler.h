@@ -14,7 +14,8 @@ namespace touchstone::trade {
 class PointSampler final : public measure::Sampler {
  public:
   // The frames outlive it.
-  PointSampler(const SceneFrames& frames, const TradePoint& point, Task task, int threads);
+  PointSampler(const SceneFrames& frames, const TradePoint& point, Task task, int threads,
+               ExecutorKind executor);
 
   measure::SampleReply sample(const measure::SampleRequest& request) override;
 

@@ -44,8 +44,8 @@ class PointTiming final : private measure::MeasuringJob {
     for (std::size_t i = 0; i <= points_.size(); ++i) {
       const TradePoint& point = points_[point_of(i)];
       plan_.contestants.push_back({point.configuration.name(), is_control(i), [this, &point] {
-                                     return std::make_unique<PointSampler>(frames_, point, task_,
-                                                                           timing_.threads);
+                                     return std::make_unique<PointSampler>(
+                                         frames_, point, task_, timing_.threads, timing_.executor);
                                    }});
     }
     for (int process = 0; process < timing_.processes; ++process) {

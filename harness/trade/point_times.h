@@ -37,6 +37,7 @@ struct PointSample {
 
 struct TimingPlan {
   int threads = 2;
+  ExecutorKind executor = usual_executor;
   double seconds = 60;     // approximate total; every point gets one process in any case
   int processes = 3;       // the number for each point, one after the other
   double time_limit = 10;  // seconds for a frame; a point that takes longer is lost

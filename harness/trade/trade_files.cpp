@@ -25,6 +25,7 @@ record::Facts facts_of(const TradeRequest& request, const TradeScene& scene,
                          {"frames", std::to_string(scene.frames.frames.size())},
                          {"task", std::string(to_string(request.task))},
                          {"threads", std::to_string(request.threads)},
+                         {"executor", std::string(to_string(request.executor))},
                          {"error", std::string(to_string(request.measure))}};
   facts.insert(facts.end(), request.facts.begin(), request.facts.end());
   return facts;
@@ -122,6 +123,7 @@ void TradeFiles::write(const PointSample& from, const Configuration& configurati
   row.frames = round.request.frames;
   row.task = request_.task;
   row.threads = request_.threads;
+  if (request_.threads > 1) row.executor = request_.executor;
   row.configuration = ConfigurationNames(configuration);
   row.control = from.control;
   row.process = round.process;

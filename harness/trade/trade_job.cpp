@@ -102,6 +102,7 @@ TradeResult measure_trade(TradeRequest& request, TradeScene& scene,
   }
   TimingPlan plan;
   plan.threads = request.threads;
+  plan.executor = request.executor;
   plan.seed = request.seed;
   plan.seconds = std::max(least_timing * request.seconds, request.seconds - watch.seconds());
   TradeFiles files(request, scene, folder);

@@ -14,6 +14,7 @@ namespace touchstone::trade {
 namespace {
 
 constexpr std::array<std::string_view, 2> scalar_names = {"float", "double"};
+constexpr std::array<std::string_view, 2> executor_names = {"crew", "onetbb"};
 
 // Converts each element with `make`; an error that it throws is reported with the element's place.
 template <class Value, class Make>
@@ -196,6 +197,8 @@ std::vector<TradeRequest> read_trades(const std::filesystem::path& file,
   request.overrides.frames = static_cast<int>(table.integer("frames", 1, 1'000'000, -1));
   request.task = static_cast<Task>(table.choice("task", traded_tasks, 0));
   request.threads = static_cast<int>(table.integer("threads", 1, 1024, 2));
+  request.executor = static_cast<ExecutorKind>(
+      table.choice("executor", executor_names, static_cast<std::size_t>(usual_executor)));
   request.seconds = table.number("seconds", files::positive, 150.0);
   request.measure = static_cast<ErrorMeasure>(table.choice(
       "error", error_measure_names, static_cast<std::size_t>(default_measure(request.task))));
@@ -243,6 +246,8 @@ std::string trade_toml(const TradeRequest& request, const std::filesystem::path&
   text += fmt::format("task = {}\nthreads = {}\nerror = {}\nseconds = {}\n",
                       in_quotes(to_string(request.task)), request.threads,
                       in_quotes(to_string(request.measure)), request.seconds);
+  if (request.executor != usual_executor)
+    text += fmt::format("executor = {}\n", in_quotes(to_string(request.executor)));
   for (const TradeGrid& grid : request.grids) text += describe(grid);
   return text;
 }

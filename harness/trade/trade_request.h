@@ -26,6 +26,7 @@ struct TradeRequest {
   scene::SceneOverrides overrides;
   Task task = Task::intersect;
   int threads = 2;
+  ExecutorKind executor = usual_executor;
   ErrorMeasure measure = ErrorMeasure::verdicts;
   double seconds = 150;    // approximate total
   std::uint64_t seed = 1;  // the seed of the order in which configurations run

@@ -38,6 +38,7 @@ struct TradeSampleRow {
   std::int64_t seed = -1, bodies = 0, frame = 0, frames = 0;
   Task task = Task::intersect;
   std::int64_t threads = 0;
+  std::optional<ExecutorKind> executor;  // empty: one thread, or it is not known
   ConfigurationNames configuration;
   bool control = false;
   std::int64_t process = 0, square = 0, round = 0, position = 0;
@@ -59,6 +60,8 @@ void columns(Row& row, Visit visit) {
   visit("frames", row.frames, "Frames of the window; behind the last one it goes on at the first.");
   visit("task", row.task, "Task of the narrow phases.");
   visit("threads", row.threads, "Threads.");
+  visit("executor", record::newer(row.executor),
+        "Whose threads they are, if several: those of our `crew` or of `onetbb`.");
   columns(row.configuration, visit);
   visit("twin", row.control, "1: the A/A control, a second registration of the baseline.");
   visit("process", row.process, "Number of the worker process.");

@@ -1,4 +1,4 @@
-// The executor's choice between one thread and its crew, and the pinning of threads.
+// The executor's choice of threads, and their pinning.
 #include "algorithms/core/executor/executor.h"
 
 #if defined(__linux__)
@@ -6,13 +6,10 @@
 #endif
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <stdexcept>
-#include <typeinfo>
 #include <vector>
 
-#include "algorithms/core/executor/executor_crew.h"
+#include "algorithms/core/executor/executor_threads.h"
 
 namespace touchstone {
 namespace {
@@ -50,62 +47,39 @@ void pin_to(int processor) {
 
 // The executor whose task this thread runs, and as which worker.
 struct Place {
-  const void* crew = nullptr;
+  const void* threads = nullptr;
   int worker = 0;
 };
 thread_local Place place;
 
-// What a task took when a body of this type last ran; 0 if that is not known. A type may lose its
-// entry to another.
-struct Estimate {
-  const std::type_info* type = nullptr;
-  double seconds_a_task = 0;
-};
-
 }  // namespace
 
-class Executor::Crew : public ExecutorCrew {
- public:
-  using ExecutorCrew::ExecutorCrew;
-
-  void run(std::size_t tasks, const Body& body);
-
- private:
-  double& seconds_of(const Body& body) {
-    const auto* const type = &body.target_type();
-    Estimate& estimate = estimates_[type->hash_code() % estimates_.size()];
-    if (estimate.type != type) estimate = {type, 0};
-    return estimate.seconds_a_task;
+std::string_view to_string(ExecutorKind kind) {
+  switch (kind) {
+    case ExecutorKind::crew: return "crew";
+    case ExecutorKind::onetbb: return "onetbb";
   }
-
-  std::array<Estimate, 64> estimates_;
-};
-
-void Executor::Crew::run(std::size_t tasks, const Body& body) {
-  double& seconds_a_task = seconds_of(body);
-  const double seconds = seconds_a_task * static_cast<double>(tasks);
-  Share own;
-  // Of a type that has not run before nothing is known, so the crew is told of its tasks.
-  if (seconds == 0 || seconds >= least_shared_seconds) {
-    own = share(tasks, body, seconds);
-  } else {
-    const auto start = std::chrono::steady_clock::now();
-    for (; own.tasks < tasks; ++own.tasks) body(own.tasks, 0);
-    own.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-  if (own.tasks > 0) seconds_a_task = own.seconds / static_cast<double>(own.tasks);
+  return "?";
 }
 
-Executor::Executor(int width, Pinning pinning) : width_(width), pinning_(pinning) {
+Executor::Executor(int width, Pinning pinning, ExecutorKind kind)
+    : width_(width), pinning_(pinning) {
   if (width < 1) throw std::invalid_argument("an executor has at least one thread");
-  const std::size_t processors = allowed_processors().size();
-  if (processors < static_cast<std::size_t>(width)) pinning_ = Pinning::none;
+  const bool has_processors = static_cast<std::size_t>(width) <= allowed_processors().size();
+  if (!has_processors) pinning_ = Pinning::none;
   if (width == 1) return;
-  crew_ = std::make_unique<Crew>(width, static_cast<std::size_t>(width) <= processors,
-                                 [this](int worker) {
-                                   pin(worker);
-                                   place = {crew_.get(), worker};
-                                 });
+  // More threads than this bring nothing, where an executor is wider than the machine.
+  constexpr int most = 8;
+  const int count = has_processors ? width : std::min(width, most);
+  auto begin = [this](int worker) {
+    pin(worker);
+    place = {threads_.get(), worker};
+  };
+  if (kind == ExecutorKind::onetbb) {
+    threads_ = make_onetbb_threads(count, begin);
+  } else {
+    threads_ = make_crew(count, has_processors, begin);
+  }
 }
 
 Executor::~Executor() = default;
@@ -117,8 +91,8 @@ void Executor::pin(int worker) const {
 
 void Executor::run(std::size_t tasks,
                    const std::function<void(std::size_t task, int worker)>& body) {
-  const bool is_inner = crew_ && place.crew == crew_.get();
-  if (!crew_ || tasks <= 1 || is_inner) {
+  const bool is_inner = threads_ && place.threads == threads_.get();
+  if (!threads_ || tasks <= 1 || is_inner) {
     const int worker = is_inner ? place.worker : 0;
     for (std::size_t task = 0; task < tasks; ++task) body(task, worker);
     return;
@@ -129,8 +103,8 @@ void Executor::run(std::size_t tasks,
   };
   const Leave leave{place};
   pin(0);
-  place = {crew_.get(), 0};
-  crew_->run(tasks, body);
+  place = {threads_.get(), 0};
+  threads_->run(tasks, body);
 }
 
 }  // namespace touchstone

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string_view>
 
 namespace touchstone {
 
@@ -16,12 +17,23 @@ enum class Pinning : std::uint8_t {
   one_a_thread,  // if there are enough processors; pins the caller's thread too, and for good
 };
 
-// A crew of a fixed width: the caller's thread and others, which are started when they are first
-// needed. Between two calls of run() they wait awake for a short time, and then asleep.
+// Whose threads an executor uses. Both run the same tasks and give the same results.
+enum class ExecutorKind : std::uint8_t {
+  crew,    // our own: few instructions to fork and join
+  onetbb,  // oneTBB's, in an arena of the executor's width
+};
+std::string_view to_string(ExecutorKind kind);
+inline constexpr ExecutorKind usual_executor = ExecutorKind::crew;
+
+class ExecutorThreads;
+
+// A fixed number of threads: the caller's and others, which are started when they are first needed.
+// Between two calls of run() they wait awake for a short time, and then asleep.
 class Executor {
  public:
-  // Makes a crew of `width` >= 1 threads, including the caller's.
-  explicit Executor(int width, Pinning pinning = Pinning::none);
+  // Makes an executor of `width` >= 1 threads, including the caller's. At width 1 there are no others,
+  // of whichever kind.
+  explicit Executor(int width, Pinning pinning = Pinning::none, ExecutorKind kind = usual_executor);
   ~Executor();
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
@@ -33,22 +45,21 @@ class Executor {
   // body is rethrown. Tasks run in any order. For results that do not depend on the width, cut the
   // work by its size and not by the width, and let each task write only to its own places. One
   // thread at a time calls it, or a body does, whose worker then does all tasks of the inner call,
-  // unless the outer call has a single task: then the crew shares the inner one.
+  // unless the outer call has a single task: then the threads share the inner one.
   //
   // The caller works alone where more threads would be slower. It knows so from what the tasks of
   // the same type of body took before, so give each loop a body of a type of its own, as a lambda
   // has.
   void run(std::size_t tasks, const std::function<void(std::size_t task, int worker)>& body);
 
-  // Pins the calling thread to the processor of this worker, if this crew's threads are pinned: for
-  // a library that has threads of its own.
+  // Pins the calling thread to the processor of this worker, if this executor's threads are pinned:
+  // for a library that has threads of its own.
   void pin(int worker) const;
 
  private:
-  class Crew;
   int width_;
   Pinning pinning_;
-  std::unique_ptr<Crew> crew_;  // null at width 1: the caller then runs all tasks
+  std::unique_ptr<ExecutorThreads> threads_;  // null at width 1: the caller then runs all tasks
 };
 
 }  // namespace touchstone

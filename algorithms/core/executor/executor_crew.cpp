@@ -21,8 +21,16 @@ void pause() {
 
 }  // namespace
 
-ExecutorCrew::ExecutorCrew(int width, bool may_spin, std::function<void(int worker)> begin)
-    : width_(width), may_spin_(may_spin), begin_(std::move(begin)), wake_rule_(may_spin) {}
+std::unique_ptr<ExecutorThreads> make_crew(int width, bool may_spin, ExecutorThreads::Begin begin) {
+  return std::make_unique<ExecutorCrew>(width, may_spin, std::move(begin));
+}
+
+ExecutorCrew::ExecutorCrew(int width, bool may_spin, Begin begin)
+    : ExecutorThreads(least_shared_seconds),
+      width_(width),
+      may_spin_(may_spin),
+      begin_(std::move(begin)),
+      wake_rule_(may_spin) {}
 
 ExecutorCrew::~ExecutorCrew() {
   {
@@ -33,12 +41,9 @@ ExecutorCrew::~ExecutorCrew() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-// More threads than this bring nothing, where a crew is wider than the machine.
 void ExecutorCrew::start_threads() {
-  constexpr int most = 8;
-  const int count = may_spin_ ? width_ : std::min(width_, most);
-  ranges_ = std::vector<Range>(static_cast<std::size_t>(count));
-  for (int worker = 1; worker < count; ++worker) {
+  ranges_ = std::vector<Range>(static_cast<std::size_t>(width_));
+  for (int worker = 1; worker < width_; ++worker) {
     threads_.emplace_back(&ExecutorCrew::work_as, this, worker);
   }
 }
@@ -78,7 +83,7 @@ bool ExecutorCrew::run_next(int worker) {
   return false;
 }
 
-ExecutorCrew::Share ExecutorCrew::share(std::size_t tasks, const Body& body, double seconds) {
+ExecutorThreads::Share ExecutorCrew::share(std::size_t tasks, const Body& body, double seconds) {
   if (threads_.empty()) start_threads();
   const auto start = Clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };

@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include "algorithms/core/executor/executor_threads.h"
 #include "algorithms/core/executor/wake_rule.h"
 
 namespace touchstone {
@@ -24,32 +24,21 @@ namespace touchstone {
 // The tasks are cut into one range for each thread. Each takes those of its own range, and then those
 // that are left of the others': loops over the same places one after the other find in a core's cache
 // what it wrote there, and threads seldom touch the same counter.
-class ExecutorCrew {
+class ExecutorCrew final : public ExecutorThreads {
  public:
-  using Body = std::function<void(std::size_t task, int worker)>;
-
-  // Measured: two threads that are awake take less time than one for loops of at least this.
-  static constexpr double least_shared_seconds = 3e-6;
-
   // Threads call `begin` with their number, in [1, width), when they start. They wait awake if
   // there is a processor for each.
-  ExecutorCrew(int width, bool may_spin, std::function<void(int worker)> begin);
-  ~ExecutorCrew();
+  ExecutorCrew(int width, bool may_spin, Begin begin);
+  ~ExecutorCrew() override;
   ExecutorCrew(const ExecutorCrew&) = delete;
   ExecutorCrew& operator=(const ExecutorCrew&) = delete;
 
- protected:
-  // What the caller did of a loop.
-  struct Share {
-    std::size_t tasks = 0;
-    double seconds = 0;
-  };
-
-  // Runs all tasks with the crew, as worker 0; `seconds` is what one thread would take, or 0 if
-  // that is not known. Rethrows the first exception of a body.
-  Share share(std::size_t tasks, const Body& body, double seconds);
-
  private:
+  // Measured: two threads that are awake take less time than one for loops of at least this.
+  static constexpr double least_shared_seconds = 3e-6;
+
+  Share share(std::size_t tasks, const Body& body, double seconds) override;
+
   // Bits of state_: a loop is open; the crew is to end; above them the number of the threads in the
   // loop, and above these the number of the loop.
   static constexpr std::uint64_t is_open = 1;
@@ -74,7 +63,7 @@ class ExecutorCrew {
 
   const int width_;
   const bool may_spin_;
-  const std::function<void(int)> begin_;
+  const Begin begin_;
   std::vector<std::thread> threads_;
 
   // The loop; it changes only while nobody is inside.

@@ -43,8 +43,8 @@ struct Contender::Worker {
   std::vector<std::uint32_t> awake, fresh;
   bool built = false;
 
-  Worker(const BroadPhaseEntry& entry, int threads)
-      : executor(threads, Pinning::one_a_thread), broad_phase(entry.make(executor)) {}
+  Worker(const BroadPhaseEntry& entry, int threads, ExecutorKind kind)
+      : executor(threads, Pinning::one_a_thread, kind), broad_phase(entry.make(executor)) {}
 };
 
 Contender::Contender(const BroadPhaseEntry& entry, const std::vector<scene::BoxFrame>& frames,
@@ -63,7 +63,7 @@ void Contender::run() {
   const process::IsolationLimits limits = {.item_seconds = options_.time_limit,
                                            .memory = process::IsolationLimits::no_limit};
   const process::IsolationReport report = process::isolate(frames_.size(), limits, [this] {
-    const auto worker = std::make_shared<Worker>(entry_, options_.threads);
+    const auto worker = std::make_shared<Worker>(entry_, options_.threads, options_.executor);
     return [this, worker](std::size_t i) { find_pairs(*worker, frames_[i], results_[i]); };
   });
   for (std::size_t i = 0; i < frames_.size(); ++i) {

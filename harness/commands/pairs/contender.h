@@ -19,6 +19,7 @@ namespace touchstone::commands {
 struct PairsOptions {
   std::string file, broad, out, pairs, changes, moved, resting;
   int threads = 2;
+  ExecutorKind executor = usual_executor;
   bool rebuild = false;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds a frame
 };

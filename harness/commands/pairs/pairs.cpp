@@ -153,6 +153,8 @@ void add_pairs(Arguments command) {
   command.text("--broad", options->broad, "Broad phases: names joined by commas, or all")
       .required();
   add_threads(command, options->threads, "Width of the executor");
+  command.one_of("--executor", options->executor, executor_choices(),
+                 "Whose threads: ours (crew, the default) or oneTBB's");
   add_time_limit(command, options->time_limit, "Seconds that a frame may take")
       .show_default("none");
   command.flag("--rebuild", options->rebuild, "Build each frame anew; no updates");

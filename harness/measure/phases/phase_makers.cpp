@@ -12,8 +12,8 @@ template <class Made>
 class Owning final : public Sampler {
  public:
   template <class Build>
-  Owning(int threads, const Build& build)
-      : executor_(threads, Pinning::one_a_thread), sampler_(build(executor_)) {}
+  Owning(Threads threads, const Build& build)
+      : executor_(threads.width, Pinning::one_a_thread, threads.kind), sampler_(build(executor_)) {}
   SampleReply sample(const SampleRequest& request) override { return sampler_.sample(request); }
 
  private:
@@ -24,7 +24,7 @@ class Owning final : public Sampler {
 }  // namespace
 
 Worker::Make broad_maker(const BroadPhaseEntry& entry, const BlockInput& input, bool rebuild,
-                         int threads) {
+                         Threads threads) {
   return [&entry, &input, rebuild, threads] {
     return std::make_unique<Owning<BroadSampler>>(
         threads, [&](Executor& executor) { return BroadSampler(entry, input, rebuild, executor); });
@@ -32,7 +32,7 @@ Worker::Make broad_maker(const BroadPhaseEntry& entry, const BlockInput& input, 
 }
 
 Worker::Make narrow_maker(const NarrowChoice& choice, const BlockInput& input,
-                          std::span<const NarrowSet> sets, int threads) {
+                          std::span<const NarrowSet> sets, Threads threads) {
   return [&choice, &input, sets, threads] {
     return std::make_unique<Owning<NarrowSampler>>(
         threads, [&](Executor& executor) { return NarrowSampler(choice, input, sets, executor); });

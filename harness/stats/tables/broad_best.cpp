@@ -32,10 +32,11 @@ std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const 
     BroadBestRow& row = rows.emplace_back();
     row.key = set.key;
     row.ours = best(&Contestant::is_ours);
-    row.peer = best([](const Contestant& c) { return !c.is_ours() && c.label != limit_label; });
+    row.peer = best([](const Contestant& c) { return !c.is_ours() && !c.is_limit(); });
     row.bullet_or_fcl = best(is_of_bullet_or_fcl);
-    const Contestant* const limit = set.find(limit_label);
-    row.over_limit = limit == nullptr ? none : ratio_between(set, *ours, *limit, noise).ratio;
+    const auto limit = std::ranges::find_if(set.contestants, &Contestant::is_limit);
+    row.over_limit =
+        limit == set.contestants.end() ? none : ratio_between(set, *ours, *limit, noise).ratio;
     const WorkRow* const work = find_row(tables.work, set.key, ours->label);
     row.bytes_a_body = work == nullptr ? nan : work->bytes;
     const SpeedUpRow* const speed_up = find_row(tables.speed_ups, set.key, ours->label);

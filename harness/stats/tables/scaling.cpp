@@ -1,4 +1,4 @@
-// The tables of growth with bodies and of speed-up by threads.
+// The tables of growth with bodies, of speed-up by threads and of executors.
 #include <algorithm>
 #include <cmath>
 
@@ -69,12 +69,30 @@ std::vector<SpeedUpRow> speed_up_rows(const Results& results, Noise noise) {
     }
     if (alone) continue;
     for (const Contestant& contestant : set.contestants) {
-      const Contestant* const alike = base->find(contestant.label);
+      const Contestant* alike = base->find(contestant.label);
+      // At one thread there is no executor.
+      if (alike == nullptr) alike = base->find(contestant.name());
       if (alike == nullptr) continue;
       const MedianInterval speed_up = exponential(
           shift(logs(by_square(contestant, noise)), logs(by_square(*alike, noise)), confidence));
       if (std::isnan(speed_up.median)) continue;
       rows.push_back({set.key, contestant.label, base->key.threads, speed_up});
+    }
+  }
+  return rows;
+}
+
+std::vector<ExecutorRow> executor_rows(const Results& results, Noise noise) {
+  std::vector<ExecutorRow> rows;
+  for (const SampleSet& set : results.sets) {
+    for (const Contestant& contestant : set.contestants) {
+      const Contestant& base =
+          *std::ranges::find(set.contestants, contestant.name(), &Contestant::name);
+      if (&base == &contestant || !base.executor || !contestant.executor) continue;
+      const TestedRatio tested = ratio_between(set, contestant, base, noise);
+      if (std::isnan(tested.ratio.median)) continue;
+      rows.push_back({set.key, contestant.name(), *contestant.executor, *base.executor,
+                      tested.ratio, set.suspect});
     }
   }
   return rows;

@@ -16,6 +16,7 @@ std::optional<WorkRow> work_row(const SampleSet& set, const Contestant& contesta
 
 std::vector<ExponentRow> exponent_rows(const std::vector<TimeRow>& times);
 std::vector<SpeedUpRow> speed_up_rows(const Results& results, Noise noise);
+std::vector<ExecutorRow> executor_rows(const Results& results, Noise noise);
 
 // These functions need the other tables of the same results.
 std::vector<BroadBestRow> broad_best(const Results& results, Noise noise, const Tables& tables);

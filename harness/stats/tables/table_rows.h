@@ -115,6 +115,17 @@ void columns(Row& row, Visit visit) {
                    visit);
 }
 
+// executors.csv
+template <record::row_of<ExecutorRow> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  key_columns(row.key, visit);
+  visit("algorithm", row.algorithm, "The algorithm's label, without the executor.");
+  visit("executor", row.executor, "Whose threads it ran on.");
+  visit("base", row.base, "The executor that the ratio is to.");
+  interval_columns("ratio", row.ratio, "Its time over that on the base.", visit);
+  visit("suspect", row.suspect, "As in ratios.csv.");
+}
+
 // agreement.csv
 template <record::row_of<AgreementRow> Row, class Visit>
 void columns(Row& row, Visit visit) {

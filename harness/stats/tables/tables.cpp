@@ -117,7 +117,7 @@ std::optional<WinnerRow> winner_row(const SampleSet& set, std::int64_t batch, No
   for (const Contestant& contestant : set.contestants) {
     if (contestant.batch != batch || is_wrong(set, contestant) || contestant.failure) continue;
     if (worst_error(contestant) > depth_error) continue;
-    if (!set.key.narrow() && contestant.label == limit_label) continue;
+    if (!set.key.narrow() && contestant.is_limit()) continue;
     // Ratios to the baseline compare contestants without a common square.
     const double ratio = median(paired_log_ratios(contestant, set.baseline(), noise));
     if (!std::isnan(ratio)) entries.push_back({&contestant, ratio});
@@ -172,6 +172,7 @@ Tables make_tables(const Results& results, Noise noise, double depth_error) {
   correct(tables.winners, [](const WinnerRow&) { return true; });
   tables.exponents = exponent_rows(tables.times);
   tables.speed_ups = speed_up_rows(results, noise);
+  tables.executors = executor_rows(results, noise);
   tables.broad_best = broad_best(results, noise, tables);
   tables.narrow_best = narrow_best(results, noise, tables);
   return tables;

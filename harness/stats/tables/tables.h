@@ -72,6 +72,15 @@ struct SpeedUpRow {
   MedianInterval speed_up;
 };
 
+// An algorithm on another executor against itself on the usual one, in the same set.
+struct ExecutorRow {
+  SetKey key;
+  std::string algorithm;
+  ExecutorKind executor = usual_executor, base = usual_executor;
+  MedianInterval ratio;  // of its time to that on the base
+  bool suspect = false;  // see SampleSet
+};
+
 // The agreement of a narrow phase's answers with the exact ones, over all its verified frames.
 struct AgreementRow {
   SetKey key;
@@ -149,6 +158,7 @@ struct Tables {
   std::vector<WinnerRow> winners;
   std::vector<ExponentRow> exponents;
   std::vector<SpeedUpRow> speed_ups;
+  std::vector<ExecutorRow> executors;
   std::vector<AgreementRow> agreement;
   std::vector<WorkRow> work;
   std::vector<BroadBestRow> broad_best;
@@ -179,7 +189,7 @@ double worst_error(const Contestant& contestant);
 std::string tables_markdown(const Tables& tables);
 
 // Writes tables.md and times.csv, ratios.csv, library_ratios.csv, winners.csv, exponents.csv,
-// speed_ups.csv, agreement.csv, work.csv, broad_best.csv, narrow_best.csv into the folder. With
+// speed_ups.csv, executors.csv, agreement.csv, work.csv, broad_best.csv, narrow_best.csv into the folder. With
 // `band`, the files of ratios state for each cell the band within which it holds: the interval,
 // widened by this factor at both ends. Throws InputError if a file cannot be written.
 void write_tables(const Tables& tables, double band, const std::filesystem::path& folder);

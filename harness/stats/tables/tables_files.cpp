@@ -11,6 +11,7 @@ void write_tables(const Tables& tables, double band, const std::filesystem::path
   record::write_rows(folder / "winners.csv", tables.winners);
   record::write_rows(folder / "exponents.csv", tables.exponents);
   record::write_rows(folder / "speed_ups.csv", tables.speed_ups);
+  record::write_rows(folder / "executors.csv", tables.executors);
   record::write_rows(folder / "agreement.csv", tables.agreement);
   record::write_rows(folder / "work.csv", tables.work);
   record::write_rows(folder / "broad_best.csv", tables.broad_best);

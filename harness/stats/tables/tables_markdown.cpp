@@ -236,6 +236,16 @@ std::string tables_markdown(const Tables& tables) {
     }
     all += table.markdown() + "\n";
   }
+  if (!tables.executors.empty()) {
+    all += "## Executors\n\n";
+    base::Table table({"input", "algorithm", "executor", "over", "ratio", "95 % interval"}, 4);
+    for (const ExecutorRow& row : tables.executors) {
+      table.add({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.algorithm,
+                 std::string(to_string(row.executor)), std::string(to_string(row.base)),
+                 base::cell(row.ratio.median), interval_cell(row.ratio)});
+    }
+    all += table.markdown() + "\n";
+  }
   if (!tables.agreement.empty()) {
     all += fmt::format(
         "## Agreement with the exact answers\n\nRight and wrong are sides of contact. The worst "

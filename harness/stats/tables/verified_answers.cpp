@@ -15,12 +15,14 @@ bool is_wrong(const SampleSet& set, const Contestant& contestant) {
                                [](const Check& check) { return check.disagreements > 0; });
   }
   // The reference of each frame is the pairs of 'naive', else those that most contestants found.
-  const Contestant* const naive = set.find("naive");
+  const auto naive = std::ranges::find(set.contestants, "naive", &Contestant::name);
   return std::ranges::any_of(contestant.checks, [&](const Check& check) {
     if (check.pair_hash.empty()) return false;
     std::map<std::string, int> votes;
     for (const Contestant& voter : set.contestants) {
-      if (naive != nullptr && &voter != naive) continue;
+      if (naive != set.contestants.end() && &voter != &*naive) continue;
+      // An algorithm on several executors has one check, and one vote.
+      if (&voter != &*std::ranges::find(set.contestants, voter.name(), &Contestant::name)) continue;
       for (const Check& other : voter.checks) {
         if (other.frame == check.frame && !other.pair_hash.empty()) ++votes[other.pair_hash];
       }

@@ -135,6 +135,7 @@ void VerificationRows::write(const AdviceProblem& problem, const Verification* v
   row.bodies = static_cast<std::int64_t>(scene.size());
   row.task = problem.request.task;
   row.threads = problem.request.threads;
+  if (row.threads > 1) row.executor = problem.request.executor;
   row.measure = problem.request.measure;
   row.max_error = problem.budget.most;
   row.no_false_negatives = problem.budget.no_false_negatives;

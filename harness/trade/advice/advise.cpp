@@ -178,6 +178,7 @@ class Search {
     }
     TimingPlan plan;
     plan.threads = problem_.request.threads;
+    plan.executor = problem_.request.executor;
     plan.seconds = seconds;
     plan.processes = processes;
     plan.seed = problem_.request.seed + members.size();

@@ -97,6 +97,7 @@ class Verifier {
     }
     TimingPlan plan;
     plan.threads = problem_.request.threads;
+    plan.executor = problem_.request.executor;
     plan.seconds = seconds;
     plan.processes = processes;
     plan.seed = problem_.request.seed + points.size();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -24,6 +25,7 @@ struct VerificationRow {
   std::int64_t bodies = 0;
   Task task = Task::intersect;
   std::int64_t threads = 0;
+  std::optional<ExecutorKind> executor;  // empty: one thread, or it is not known
   ErrorMeasure measure = ErrorMeasure::verdicts;
   double max_error = 0;
   bool no_false_negatives = false;
@@ -48,6 +50,8 @@ void columns(Row& row, Visit visit, int held_out_scenes) {
   visit("bodies", row.bodies, "Bodies of the scene.");
   visit("task", row.task, "Task of the narrow phases.");
   visit("threads", row.threads, "Threads.");
+  visit("executor", record::newer(row.executor),
+        "Whose threads they are, if several: those of our `crew` or of `onetbb`.");
   visit("error_measure", row.measure, "What counts as the error of a configuration.");
   visit("max_error", row.max_error, "Greatest error that was allowed.");
   visit("no_false_negatives", row.no_false_negatives, "1: no contact may be missed.");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <utility>
 
 #include "algorithms/core/isa.h"
 #include "algorithms/registry.h"
@@ -135,20 +136,27 @@ TEST_P(BroadPhases, FindThePairsOfEverySet) {
   }
 }
 
+// Widths, each with the kind of its threads.
+constexpr std::pair<int, ExecutorKind> executors[] = {{1, ExecutorKind::crew},
+                                                      {2, ExecutorKind::crew},
+                                                      {3, ExecutorKind::crew},
+                                                      {2, ExecutorKind::onetbb},
+                                                      {4, ExecutorKind::onetbb}};
+
 TEST_P(OurBroadPhases, WriteTheSameAtEveryWidth) {
   std::vector<const BoxSet*> sets = {&crowd().set};
   for (const Sample& sample : samples()) sets.push_back(&sample.set);
   for (const BoxSet* set : sets) {
     SCOPED_TRACE(set->name);
     std::optional<std::vector<IndexPair>> first;
-    for (const int width : {1, 2, 3}) {
-      Executor executor(width);
+    for (const auto& [width, kind] : executors) {
+      Executor executor(width, Pinning::none, kind);
       const auto algorithm = entry().make(executor);
       PairSink sink;
       algorithm->build(set->boxes);
       const auto found = ordered_pairs(*algorithm, sink);
       if (!first) first = found;
-      EXPECT_EQ(*first == found, true) << "width " << width;
+      EXPECT_EQ(*first == found, true) << "width " << width << ", " << to_string(kind);
     }
   }
 }
@@ -318,12 +326,12 @@ TEST_P(BroadPhases, FollowSizes) {
   }
 }
 
-// The order too depends only on the frames that came, not on the width.
+// The order too depends only on the frames that came, not on the width or the kind of threads.
 TEST_P(OurBroadPhases, FollowTheSameAtEveryWidth) {
   std::optional<std::vector<IndexPair>> first;
-  for (const int width : {1, 2, 3}) {
+  for (const auto& [width, kind] : executors) {
     Random random(45);
-    Executor executor(width);
+    Executor executor(width, Pinning::none, kind);
     const auto algorithm = entry().make(executor);
     PairSink sink;
     Frames frames(uniform_boxes(random, crowd_size, 0.03f));
@@ -340,7 +348,7 @@ TEST_P(OurBroadPhases, FollowTheSameAtEveryWidth) {
       first = all;
       expect_truth(sink.gather(), true_pairs(frames.boxes()), crowd_size, false);
     }
-    EXPECT_EQ(*first == all, true) << "width " << width;
+    EXPECT_EQ(*first == all, true) << "width " << width << ", " << to_string(kind);
   }
 }
 

@@ -9,8 +9,13 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <numeric>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -19,11 +24,18 @@
 namespace {
 
 using touchstone::Executor;
+using touchstone::ExecutorKind;
+using touchstone::Pinning;
 using touchstone::WakeRule;
 
-TEST(Executor, RunsEachTaskOnceAtEveryWidth) {
-  for (const int width : {1, 2, 3, 5}) {
-    Executor executor(width);
+// Each test runs with the threads of the crew and with oneTBB's.
+class Executors : public testing::TestWithParam<ExecutorKind> {};
+INSTANTIATE_TEST_SUITE_P(Of, Executors, testing::Values(ExecutorKind::crew, ExecutorKind::onetbb),
+                         [](const auto& kind) { return std::string(to_string(kind.param)); });
+
+TEST_P(Executors, RunsEachTaskOnceAtEveryWidth) {
+  for (const int width : {1, 2, 3, 4, 5}) {
+    Executor executor(width, Pinning::none, GetParam());
     for (const std::size_t tasks : {0u, 1u, 2u, 1000u}) {
       std::vector<int> runs(tasks, 0);
       executor.run(tasks, [&](std::size_t task, int) { ++runs[task]; });
@@ -32,9 +44,9 @@ TEST(Executor, RunsEachTaskOnceAtEveryWidth) {
   }
 }
 
-TEST(Executor, NoTwoTasksShareAWorkerAtOnce) {
+TEST_P(Executors, NoTwoTasksShareAWorkerAtOnce) {
   constexpr int width = 4;
-  Executor executor(width);
+  Executor executor(width, Pinning::none, GetParam());
   std::vector<std::atomic<int>> busy(width);
   std::atomic<int> clashes{0};
   executor.run(2000, [&](std::size_t, int worker) {
@@ -49,11 +61,11 @@ TEST(Executor, NoTwoTasksShareAWorkerAtOnce) {
 // Each thread has a range of its own, and takes what is left of the other's. The first loop tells that
 // tasks take so long that a thread which has fallen asleep is woken before the second one's first task,
 // which waits for it.
-TEST(Executor, ATaskThatWaitsLeavesItsRangeToOthers) {
+TEST_P(Executors, ATaskThatWaitsLeavesItsRangeToOthers) {
   using Clock = std::chrono::steady_clock;
   constexpr std::size_t tasks = 64;
   for (const std::size_t waiting : {std::size_t{0}, tasks / 2}) {
-    Executor executor(2);
+    Executor executor(2, Pinning::none, GetParam());
     bool waits = false;
     std::atomic<std::size_t> others{0};
     const auto body = [&](std::size_t task, int) {
@@ -80,15 +92,15 @@ TEST(Executor, ATaskThatWaitsLeavesItsRangeToOthers) {
 }
 
 #if defined(__linux__)
-TEST(Executor, PinnedThreadsHaveAProcessorEach) {
+TEST_P(Executors, PinnedThreadsHaveAProcessorEach) {
   // The test runs in a thread of its own, because pins stay.
-  std::thread([] {
+  std::thread([this] {
     cpu_set_t allowed;
     ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
     if (CPU_COUNT(&allowed) < 2) GTEST_SKIP() << "there is one processor only";
     // The second is made by a thread that the first has pinned.
     for (int made = 0; made < 2; ++made) {
-      Executor executor(2, touchstone::Pinning::one_a_thread);
+      Executor executor(2, Pinning::one_a_thread, GetParam());
       std::array<std::set<int>, 2> seen;
       for (int run = 0; run < 200; ++run) {
         executor.run(64, [&](std::size_t, int worker) {
@@ -102,7 +114,7 @@ TEST(Executor, PinnedThreadsHaveAProcessorEach) {
       }
     }
     // More threads than processors are left to the system.
-    Executor wide(CPU_SETSIZE, touchstone::Pinning::one_a_thread);
+    Executor wide(CPU_SETSIZE, Pinning::one_a_thread, GetParam());
     std::atomic<int> tasks = 0;
     wide.run(100, [&](std::size_t, int) { ++tasks; });
     EXPECT_EQ(tasks, 100);
@@ -110,9 +122,9 @@ TEST(Executor, PinnedThreadsHaveAProcessorEach) {
 }
 #endif
 
-TEST(Executor, HandsExceptionsOn) {
-  for (const int width : {1, 2}) {
-    Executor executor(width);
+TEST_P(Executors, HandsExceptionsOn) {
+  for (const int width : {1, 2, 4}) {
+    Executor executor(width, Pinning::none, GetParam());
     EXPECT_THROW(executor.run(100,
                               [](std::size_t task, int) {
                                 if (task == 57) throw std::runtime_error("57");
@@ -125,9 +137,9 @@ TEST(Executor, HandsExceptionsOn) {
 }
 
 // Loops of all lengths, one after the other and after rests in which the threads fall asleep.
-TEST(Executor, RunsLoopAfterLoop) {
+TEST_P(Executors, RunsLoopAfterLoop) {
   for (const int width : {2, 3}) {
-    Executor executor(width);
+    Executor executor(width, Pinning::none, GetParam());
     std::vector<std::atomic<int>> workers(static_cast<std::size_t>(width));
     std::size_t all = 0;
     for (int loop = 0; loop < 3000; ++loop) {
@@ -162,8 +174,8 @@ TEST(Executor, RunsLoopAfterLoop) {
 }
 
 // What the threads of a loop write is seen after it, and by the next one.
-TEST(Executor, LoopsSeeWhatTheOnesBeforeWrote) {
-  Executor executor(2);
+TEST_P(Executors, LoopsSeeWhatTheOnesBeforeWrote) {
+  Executor executor(2, Pinning::none, GetParam());
   std::vector<std::uint64_t> values(64, 1);
   for (int loop = 0; loop < 500; ++loop) {
     std::vector<std::uint64_t> next(values.size());
@@ -180,6 +192,80 @@ TEST(Executor, LoopsSeeWhatTheOnesBeforeWrote) {
     values = next;
   }
 }
+
+// An exception leaves no more tasks, and what was written before it is seen.
+TEST_P(Executors, HandsOnWhatAnExceptionSays) {
+  Executor executor(2, Pinning::none, GetParam());
+  for (int loop = 0; loop < 50; ++loop) {
+    std::vector<int> done(64, 0);
+    std::string words;
+    try {
+      executor.run(done.size(), [&](std::size_t task, int) {
+        std::this_thread::sleep_for(std::chrono::microseconds(10));
+        if (task % 16 == 15) throw std::runtime_error("task " + std::to_string(task));
+        ++done[task];
+      });
+    } catch (const std::runtime_error& error) {
+      words = error.what();
+    }
+    EXPECT_TRUE(words.starts_with("task ")) << words;
+    EXPECT_LT(std::accumulate(done.begin(), done.end(), 0), 60);
+  }
+}
+
+// Two executors, of which the inner one is used by one thread at a time.
+TEST_P(Executors, ALoopInATaskOfAnotherExecutorHasItsOwnThreads) {
+  Executor outer(2, Pinning::none, GetParam());
+  for (const ExecutorKind kind : {ExecutorKind::crew, ExecutorKind::onetbb}) {
+    std::vector<std::unique_ptr<Executor>> inner;
+    for (int worker = 0; worker < outer.width(); ++worker)
+      inner.push_back(std::make_unique<Executor>(3, Pinning::none, kind));
+    std::vector<std::atomic<int>> runs(16 * 16);
+    std::atomic<int> others = 0;
+    for (int loop = 0; loop < 20; ++loop) {
+      outer.run(16, [&](std::size_t task, int worker) {
+        inner[static_cast<std::size_t>(worker)]->run(16, [&](std::size_t own, int) {
+          std::this_thread::sleep_for(std::chrono::microseconds(5));
+          ++runs[task * 16 + own];
+        });
+        // The task goes on as the outer executor's worker.
+        outer.run(2, [&](std::size_t, int same) { others += same == worker ? 0 : 1; });
+      });
+    }
+    for (const std::atomic<int>& run : runs) ASSERT_EQ(run, 20);
+    EXPECT_EQ(others, 0);
+  }
+}
+
+#if defined(__linux__)
+std::ptrdiff_t threads_of_process() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+}
+
+// A process that forks has no threads left of executors that it had.
+TEST_P(Executors, LeaveNoThreads) {
+  const std::ptrdiff_t before = threads_of_process();
+  for (int made = 0; made < 3; ++made) {
+    Executor executor(2, Pinning::none, GetParam());
+    std::atomic<int> others = 0;
+    bool waits = false;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto body = [&](std::size_t, int worker) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (worker != 0) ++others;
+      while (waits && others == 0 && std::chrono::steady_clock::now() < end) {
+        std::this_thread::yield();
+      }
+    };
+    executor.run(4, body);  // it tells that tasks take long
+    waits = true;
+    executor.run(4, body);
+    EXPECT_GT(others, 0);
+    EXPECT_GT(threads_of_process(), before);
+  }
+  EXPECT_EQ(threads_of_process(), before);
+}
+#endif
 
 // Loops of 12 us, of which each alone is too short.
 TEST(WakeRule, CountsShortLoopsThatFollowEachOther) {
@@ -209,9 +295,9 @@ TEST(WakeRule, CountsShortLoopsThatFollowEachOther) {
   EXPECT_TRUE(alone.wakes(true, now + microseconds(300), WakeRule::least_seconds));
 }
 
-TEST(Executor, ALoopInATaskIsItsWorkersOwn) {
+TEST_P(Executors, ALoopInATaskIsItsWorkersOwn) {
   for (const int width : {1, 2, 4}) {
-    Executor executor(width);
+    Executor executor(width, Pinning::none, GetParam());
     std::vector<std::atomic<int>> runs(32 * 32);
     std::atomic<int> others = 0;
     executor.run(32, [&](std::size_t outer, int worker) {
@@ -225,6 +311,8 @@ TEST(Executor, ALoopInATaskIsItsWorkersOwn) {
   }
 }
 
-TEST(Executor, RefusesNoThreads) { EXPECT_THROW(Executor(0), std::invalid_argument); }
+TEST_P(Executors, RefuseNoThreads) {
+  EXPECT_THROW(Executor(0, Pinning::none, GetParam()), std::invalid_argument);
+}
 
 }  // namespace

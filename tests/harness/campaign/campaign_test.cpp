@@ -71,6 +71,25 @@ TEST_F(CampaignFile, WarmStartsStandBesideColdOnes) {
   EXPECT_TRUE(ruled.groups[0].admits(cell));
 }
 
+TEST_F(CampaignFile, ExecutorsAreChosen) {
+  const auto executors = [&](const std::string& line) {
+    return read("scenes = 'a.toml'\n" + line).groups[0].executors;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(executors(""), ElementsAre(usual_executor));
+  EXPECT_THAT(executors("executor = 'crew'"), ElementsAre(ExecutorKind::crew));
+  EXPECT_THAT(executors("executor = 'onetbb'"), ElementsAre(ExecutorKind::onetbb));
+  EXPECT_THAT(executors("executor = ['onetbb', 'crew']"),
+              ElementsAre(ExecutorKind::onetbb, ExecutorKind::crew));
+  EXPECT_THAT(
+      fault("scenes = 'a.toml'\nexecutor = 'tbb'"),
+      testing::HasSubstr("c.toml:2: executor: found \"tbb\"; expected one of crew, onetbb"));
+  EXPECT_NE(campaign::description(read("scenes = 'a.toml'\nexecutor = 'onetbb'")),
+            campaign::description(read("scenes = 'a.toml'")));
+  EXPECT_EQ(campaign::description(read("scenes = 'a.toml'\nexecutor = 'crew'")),
+            campaign::description(read("scenes = 'a.toml'")));
+}
+
 TEST_F(CampaignFile, OnePairACallStandsBesideBatches) {
   const auto labels = [&](const std::string& batch) {
     const campaign::Campaign campaign =
@@ -237,6 +256,7 @@ TEST_F(CampaignFile, EveryKeyRefusesWhatIsNoneOfItsValues) {
       {"frames", {"0", "-1", "'all'", "[3]", "1_000_001"}},
       {"boxes", {"'round'", "1", "['tight', 'round']", "[]"}},
       {"threads", {"0", "-2", "1025", "'two'", "1.0", "[]"}},
+      {"executor", {"'tbb'", "2", "['crew', 1]", "[]"}},
       {"rebuild", {"1", "'yes'"}},
       {"broad", {"'nobody'", "3", "['naive', 4]", "'gjk'", "[]"}},
       {"narrow", {"'nobody'", "3", "['gjk', true]", "'naive'", "[]"}},

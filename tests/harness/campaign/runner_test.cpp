@@ -125,6 +125,66 @@ TEST_F(Runner, GivesTheSameAnswersAtEveryWidthInEveryCombination) {
   EXPECT_GE(combinations.size(), 20u);
 }
 
+// Executors are contestants of one set: they share its squares and have the same answers.
+TEST_F(Runner, TimesEachAlgorithmOnEachExecutorInTheSameRounds) {
+  const campaign::Campaign c = campaign(
+      "threads = [1, 2]\nexecutor = ['crew', 'onetbb', 'crew']\nbroad = ['naive', 'packed-rtree']\n"
+      "narrow = 'gjk'\nscalars = 'double'\nsquares = 6\nprocesses = 1");
+  const campaign::RunResult result = campaign::run_campaign(c, out());
+  EXPECT_FALSE(result.findings.ours_are_wrong()) << record::departures_text(result.findings);
+  using Squares = std::set<std::pair<std::int64_t, std::int64_t>>;
+  std::map<std::string, Squares> squares;
+  for (const record::RawRow& row : record::read_rows<record::RawRow>(out() / "raw.csv")) {
+    const bool is_sample = row.kind == record::RowKind::sample;
+    EXPECT_EQ(row.executor.has_value(), is_sample && row.threads > 1);
+    if (!is_sample || row.is_twin() || row.is_narrow()) continue;
+    squares[std::to_string(row.threads) + " " + record::label_of(row)].emplace(row.square,
+                                                                               row.round);
+  }
+  using testing::ElementsAre;
+  using testing::Key;
+  EXPECT_THAT(squares, ElementsAre(Key("1 naive"), Key("1 packed-rtree"), Key("2 naive"),
+                                   Key("2 naive onetbb"), Key("2 packed-rtree"),
+                                   Key("2 packed-rtree onetbb")));
+  const stats::Tables tables = stats::make_tables(stats::read_results(out()), stats::Noise::kept);
+  // Two broad phases, and gjk in each of the sets of kinds.
+  EXPECT_EQ(tables.executors.size(), 2u + 6u);
+  for (const stats::ExecutorRow& row : tables.executors) {
+    EXPECT_EQ(row.key.threads, 2);
+    EXPECT_EQ(row.executor, ExecutorKind::onetbb);
+    EXPECT_EQ(row.base, ExecutorKind::crew);
+    EXPECT_GT(row.ratio.median, 0);
+  }
+  std::set<std::string> sped_up;
+  for (const stats::SpeedUpRow& row : tables.speed_ups) {
+    if (row.key.threads == 2) sped_up.insert(row.label);
+  }
+  EXPECT_THAT(sped_up, ElementsAre("gjk double", "gjk double onetbb", "naive", "naive onetbb",
+                                   "packed-rtree", "packed-rtree onetbb"));
+}
+
+// The check, which has one thread, is that of the algorithm on whichever executor.
+TEST_F(Runner, GivesTheChecksToTheOnlyExecutor) {
+  const campaign::Campaign c = campaign(
+      "executor = 'onetbb'\nlimit = true\nbroad = ['naive', 'packed-rtree']\nnarrow = 'none'\n"
+      "squares = 6\nrounds = 1\nprocesses = 1");
+  campaign::run_campaign(c, out());
+  const stats::Results results = stats::read_results(out());
+  ASSERT_EQ(results.sets.size(), 1u);
+  std::set<std::string> labels;
+  for (const stats::Contestant& contestant : results.sets[0].contestants) {
+    labels.insert(contestant.label);
+    EXPECT_FALSE(contestant.samples.empty()) << contestant.label;
+    EXPECT_FALSE(contestant.checks.empty()) << contestant.label;
+  }
+  EXPECT_THAT(labels, testing::ElementsAre("limit onetbb", "naive onetbb", "packed-rtree onetbb"));
+  const stats::Tables tables = stats::make_tables(results, stats::Noise::kept);
+  EXPECT_TRUE(tables.executors.empty());
+  ASSERT_EQ(tables.broad_best.size(), 1u);
+  EXPECT_GT(tables.broad_best[0].over_limit.median, 0);
+  EXPECT_EQ(tables.broad_best[0].peer.label, "") << "the limit is none";
+}
+
 // Bodies that come and go, jump or move are checked frame by frame like all others.
 TEST_F(Runner, ChecksFramesInWhichBodiesComeAndGo) {
   const campaign::Campaign c =

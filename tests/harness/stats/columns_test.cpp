@@ -32,6 +32,7 @@ TEST(Columns, OfTablesAreDocumented) {
   expect_documented_after_key("winners.csv", column_docs<stats::WinnerRow>());
   expect_documented_after_key("exponents.csv", column_docs<stats::ExponentRow>());
   expect_documented_after_key("speed_ups.csv", column_docs<stats::SpeedUpRow>());
+  expect_documented_after_key("executors.csv", column_docs<stats::ExecutorRow>());
   expect_documented_after_key("work.csv", column_docs<stats::WorkRow>());
   expect_documented_after_key("agreement.csv", column_docs<stats::AgreementRow>());
   expect_documented_after_key("broad_best.csv", column_docs<stats::BroadBestRow>());

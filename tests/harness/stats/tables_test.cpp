@@ -227,7 +227,7 @@ TEST_F(TablesOf, FilesAreTheSameBytesTwiceAndSayWhatTheyAreOf) {
     stats::write_tables(tables, 1.5, folder_.path() / name);
   }
   for (const char* name : {"tables.md", "times.csv", "ratios.csv", "winners.csv", "exponents.csv",
-                           "speed_ups.csv", "agreement.csv", "work.csv"}) {
+                           "speed_ups.csv", "executors.csv", "agreement.csv", "work.csv"}) {
     const std::string one = folder_.read(std::string("one/") + name);
     EXPECT_FALSE(one.empty()) << name;
     EXPECT_EQ(one, folder_.read(std::string("two/") + name)) << name;
