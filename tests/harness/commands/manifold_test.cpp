@@ -16,10 +16,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<std::string> columns = {"id",       "algorithm", "scalar",   "answer", "status",
-                                          "normal_x", "normal_y",  "normal_z", "count",  "point",
-                                          "depth",    "a_x",       "a_y",      "a_z",    "b_x",
-                                          "b_y",      "b_z",       "feature"};
+const std::vector<std::string> manifold_columns = {
+    "id",       "algorithm", "scalar", "answer", "status", "normal_x",
+    "normal_y", "normal_z",  "count",  "point",  "depth",  "a_x",
+    "a_y",      "a_z",       "b_x",    "b_y",    "b_z",    "feature"};
 
 // The cases are a cube on a box, one far above it, and a ball in a plane.
 const std::string cube_on_cube =
@@ -42,7 +42,7 @@ TEST(ManifoldCommand, OneRowForEachPoint) {
   const Ran ran = run_program("manifold " + cases.string() +
                               " --algorithm clipped-faces --scalar double --out " + out.string());
   EXPECT_EQ(ran.status, 0) << ran.text;
-  const auto rows = read_rows(out, columns);
+  const auto rows = read_rows(out, manifold_columns);
   ASSERT_EQ(rows.size(), 6u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(rows[i][0], "on");
