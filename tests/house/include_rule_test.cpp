@@ -314,9 +314,9 @@ TEST(House, FilesAreWrittenInOneWay) {
     }
     for (std::size_t at = 0; (at = file.text.find("fopen(", at)) != std::string::npos; ++at) {
       const std::string call = file.text.substr(at, file.text.find(';', at) - at);
-      const std::size_t mode = call.rfind(", \"");
+      const std::size_t mode = call.find(", \"");
       writes = writes || mode == std::string::npos || call[mode + 3] != 'r' ||
-               call.find('+', mode) != std::string::npos;
+               call.substr(mode, call.find('"', mode + 3) - mode).find('+') != std::string::npos;
     }
     EXPECT_EQ(writes, known.contains(file.path)) << file.path;
   }
