@@ -94,6 +94,14 @@ class Polytope {
     return radius;
   }
 
+  // Of the faces that are no further than `limit`, returns the one with the nearest point. Faces may share a plane.
+  const Face& face_with_projection(double limit) const {
+    return *std::ranges::min_element(faces_, {}, [&](const Face& face) {
+      const double length = combine(face, weights(face), &SupportPoint::w).norm();
+      return face.distance <= limit ? length : std::numeric_limits<double>::infinity();
+    });
+  }
+
   // Grows the polytope by a point. Returns false if the edges around the hole make no closed line.
   bool expand(const SupportPoint& w) {
     std::vector<Edge> horizon;
@@ -230,9 +238,10 @@ class EpaTextbook final : public NarrowPhase {
       least_height = std::min(least_height, height);
       inside = std::max(inside, polytope.inside());
       if (height - face.distance <= (inside > 0 ? tolerance_ : 0) + 2 * c.rounding()) {
-        const Vec3d weights = polytope.weights(face);
+        const Face& last = polytope.face_with_projection(height + c.rounding());
+        const Vec3d weights = polytope.weights(last);
         const double upper =
-            polytope.combine(face, weights, &SupportPoint::w).norm() + c.rounding();
+            polytope.combine(last, weights, &SupportPoint::w).norm() + c.rounding();
         if (!(inside > 0))
           return textbook::write_undecided(c, -std::max(height, 0.0) - c.rounding(), upper,
                                            outcome);
@@ -240,8 +249,8 @@ class EpaTextbook final : public NarrowPhase {
         textbook::write_overlapping(outcome);
         outcome.distance = -c.unit() * height;
         outcome.normal = face.normal;
-        outcome.witness_a = c.to_world(polytope.combine(face, weights, &SupportPoint::a));
-        outcome.witness_b = c.to_world(polytope.combine(face, weights, &SupportPoint::b));
+        outcome.witness_a = c.to_world(polytope.combine(last, weights, &SupportPoint::a));
+        outcome.witness_b = c.to_world(polytope.combine(last, weights, &SupportPoint::b));
         break;
       }
       if (!polytope.expand(w)) break;

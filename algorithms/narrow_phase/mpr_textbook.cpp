@@ -153,11 +153,12 @@ class MprTextbook final : public NarrowPhase {
       normal = (v1 - v0).cross(v2 - v0);
     }
     // Portal refinement.
+    bool is_enclosed = false;  // once the origin is, the bodies overlap whatever the later portals
     for (;; ++outcome.iterations) {
       normal = (v2 - v1).cross(v3 - v1);
       if (!(normal.squaredNorm() > 0)) return;
       normal.normalize();
-      const bool is_enclosed = textbook::encloses_origin({v0, v1, v2, v3}, c.rounding());
+      is_enclosed = is_enclosed || textbook::encloses_origin({v0, v1, v2, v3}, c.rounding());
       if (is_enclosed && !wants_depth) return textbook::write_overlapping(outcome);
       const Vec3d v4 = support(normal);
       if (planes.separate(v4, normal)) return;

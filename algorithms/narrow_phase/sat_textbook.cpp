@@ -115,7 +115,7 @@ class Test {
     const Axis axis = cross(edge_a.direction, edge_b.direction, doubt);
     const double angle = edge_a.direction.cross(edge_b.direction).norm();
     const bool is_parallel = angle < 1e-8;
-    if (is_parallel) parallel_ = std::max(parallel_, 4 * (angle + doubt));
+    if (is_parallel) parallel_ = std::max(parallel_, 2 * (angle + doubt));
     return angle > 0 && separates(axis, is_parallel);
   }
 

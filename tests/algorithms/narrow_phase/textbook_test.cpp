@@ -149,7 +149,9 @@ TEST_P(Textbook, TakesNoSideWithinRounding) {
     }
   }
   // GJK as it was published has lost its direction there, and gives up.
-  EXPECT_GT(touching, std::string(GetParam()) == "gjk-textbook" ? 0 : asked / 4);
+  if (std::string(GetParam()) != "gjk-textbook") {
+    EXPECT_GT(touching, asked / 4);
+  }
 }
 
 TEST_P(Textbook, SaysThatItGaveUpAtTheCapOfIterations) {
