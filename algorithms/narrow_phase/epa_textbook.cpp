@@ -82,8 +82,14 @@ class Polytope {
       add_face(i, j, k);
   }
 
-  const Face& nearest_face() const {
-    return *std::ranges::min_element(faces_, {}, &Face::distance);
+  // Returns the face whose plane is nearest to the origin. Faces may share a plane: of those within `slack` of the nearest
+  // it is the one that has the nearest point.
+  Face nearest_face(double slack) const {
+    const double least = std::ranges::min_element(faces_, {}, &Face::distance)->distance;
+    return *std::ranges::min_element(faces_, {}, [&](const Face& face) {
+      if (!(face.distance <= least + slack)) return std::numeric_limits<double>::infinity();
+      return combine(face, weights(face), &SupportPoint::w).norm();
+    });
   }
 
   // The radius of a ball about the origin that is in C whatever the rounding; below zero if there is none. A closed surface
@@ -92,14 +98,6 @@ class Polytope {
     double radius = std::numeric_limits<double>::infinity();
     for (const Face& face : faces_) radius = std::min(radius, face.distance - face.doubt);
     return radius;
-  }
-
-  // Of the faces that are no further than `limit`, returns the one with the nearest point. Faces may share a plane.
-  const Face& face_with_projection(double limit) const {
-    return *std::ranges::min_element(faces_, {}, [&](const Face& face) {
-      const double length = combine(face, weights(face), &SupportPoint::w).norm();
-      return face.distance <= limit ? length : std::numeric_limits<double>::infinity();
-    });
   }
 
   // Grows the polytope by a point. Returns false if the edges around the hole make no closed line.
@@ -226,7 +224,8 @@ class EpaTextbook final : public NarrowPhase {
   void expand(Difference& c, Polytope polytope, Outcome& outcome) const {
     double least_height = std::numeric_limits<double>::infinity(), inside = 0;
     for (int k = 0; k <= max_iterations_; ++k, ++outcome.iterations) {
-      const Face face = polytope.nearest_face();
+      const double slack = (inside > 0 ? tolerance_ : 0) + 2 * c.rounding();
+      const Face face = polytope.nearest_face(slack);
       if (!(face.doubt < 1)) break;
       const SupportPoint w = c.support(face.normal);
       const double height = face.normal.dot(w.w);
@@ -237,11 +236,10 @@ class EpaTextbook final : public NarrowPhase {
       }
       least_height = std::min(least_height, height);
       inside = std::max(inside, polytope.inside());
-      if (height - face.distance <= (inside > 0 ? tolerance_ : 0) + 2 * c.rounding()) {
-        const Face& last = polytope.face_with_projection(height + c.rounding());
-        const Vec3d weights = polytope.weights(last);
+      if (height - face.distance <= slack) {
+        const Vec3d weights = polytope.weights(face);
         const double upper =
-            polytope.combine(last, weights, &SupportPoint::w).norm() + c.rounding();
+            polytope.combine(face, weights, &SupportPoint::w).norm() + c.rounding();
         if (!(inside > 0))
           return textbook::write_undecided(c, -std::max(height, 0.0) - c.rounding(), upper,
                                            outcome);
@@ -249,8 +247,9 @@ class EpaTextbook final : public NarrowPhase {
         textbook::write_overlapping(outcome);
         outcome.distance = -c.unit() * height;
         outcome.normal = face.normal;
-        outcome.witness_a = c.to_world(polytope.combine(last, weights, &SupportPoint::a));
-        outcome.witness_b = c.to_world(polytope.combine(last, weights, &SupportPoint::b));
+        if (upper > height + 1e-6) break;  // no face has the projection, whose points are unknown
+        outcome.witness_a = c.to_world(polytope.combine(face, weights, &SupportPoint::a));
+        outcome.witness_b = c.to_world(polytope.combine(face, weights, &SupportPoint::b));
         break;
       }
       if (!polytope.expand(w)) break;

@@ -149,8 +149,10 @@ class SatTextbook final : public NarrowPhase {
       Difference c(shape_a, pose_a, shape_b, pose_b);
       outcomes[i] = {.status = Status::degenerate};
       if (!c.is_finite() || !has_faces(*shape_a.shape) || !has_faces(*shape_b.shape)) continue;
-      place(*shape_a.shape, pose_a.rotation, c.unit(), c.rounding(), corners_, axes_a_);
-      place(*shape_b.shape, pose_b.rotation, c.unit(), c.rounding(), corners_, axes_b_);
+      // That of a corner is a part of that of a support point.
+      const double rounding = c.rounding() / 3;
+      place(*shape_a.shape, pose_a.rotation, c.unit(), rounding, corners_, axes_a_);
+      place(*shape_b.shape, pose_b.rotation, c.unit(), rounding, corners_, axes_b_);
       solve_pair(c, vertices_of(*shape_a.shape) + vertices_of(*shape_b.shape), task, outcomes[i]);
     }
   }
