@@ -86,6 +86,7 @@ const std::map<std::string, std::set<std::string>> kernel_rooms = {
     {"batch", {"gjk", "minkowski", "simd"}},
     {"triangles", {"simd"}},
     {"features", {}},
+    {"textbook", {}},
     {"rays", {"bvh", "simd"}},
     {"motion", {"epa", "gjk", "minkowski", "rays", "simd"}},
 };
