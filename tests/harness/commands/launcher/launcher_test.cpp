@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-struct Row {
+struct CommandRow {
   std::string program, name, heading;
 };
 
-const std::vector<Row> table = {
+const std::vector<CommandRow> command_table = {
 #define TOUCHSTONE_COMMAND(program, name, takes, heading, about) {#program, #name, heading},
 #include "harness/commands/commands.inl"
 };
@@ -107,7 +107,7 @@ class Launcher : public testing::Test {
   TemporaryFolder folder_;
 };
 
-const std::set<std::string> first = {"touchstone"};
+const std::set<std::string> first_program = {"touchstone"};
 const std::set<std::string> both = {"touchstone", "touchstone_more"};
 
 // The lines of the table of commands in README.md.
@@ -129,7 +129,7 @@ std::vector<std::string> lines_of_readme() {
 
 TEST_F(Launcher, BuildsWhatEveryCommandOfTheReadmeRuns) {
   std::map<std::string, std::string> program;
-  for (const Row& row : table) program[row.name] = row.program;
+  for (const CommandRow& row : command_table) program[row.name] = row.program;
   std::vector<std::string> lines = lines_of_readme();
   lines.emplace_back("test");
   std::set<std::string> seen;
@@ -138,12 +138,12 @@ TEST_F(Launcher, BuildsWhatEveryCommandOfTheReadmeRuns) {
     ASSERT_TRUE(program.contains(name)) << "'" << line << "' of README.md is not in commands.inl";
     seen.insert(name);
     if (name == "setup") continue;
-    std::set<std::string> programs = program[name] == "touchstone_more" ? both : first;
+    std::set<std::string> programs = program[name] == "touchstone_more" ? both : first_program;
     if (name == "test") programs = {"all"};
     if (name == "bench") programs = {"touchstone_bench"};
     expect_built(line, programs);
   }
-  for (const Row& row : table)
+  for (const CommandRow& row : command_table)
     EXPECT_TRUE(seen.contains(row.name)) << row.name << " of commands.inl";
 }
 
@@ -154,7 +154,7 @@ TEST_F(Launcher, BuildsWhatEveryFileOfTheDatasetsNeeds) {
     const bool is_other = std::ranges::any_of(
         keys_of_more, [&](const auto& key) { return files::has_key(entry.path(), key); });
     ++(is_other ? others : campaigns);
-    expect_built("run " + entry.path().string() + " --out x", is_other ? both : first);
+    expect_built("run " + entry.path().string() + " --out x", is_other ? both : first_program);
   }
   EXPECT_GT(campaigns, 5);
   EXPECT_GT(others, 5);
@@ -177,8 +177,8 @@ TEST_F(Launcher, KnowsTheKeysOfAFileInEverySpelling) {
   expect_built("run /dev/stdin </dev/null", both);
   // A comparison does not wait for the second program.
   const fs::path campaign = folder_.write("file.toml", "# check\nname = 'cells'\n[[group]]\n");
-  EXPECT_EQ(launch("run " + campaign.string()).asked, first);
-  EXPECT_EQ(launch("run").asked, first);
+  EXPECT_EQ(launch("run " + campaign.string()).asked, first_program);
+  EXPECT_EQ(launch("run").asked, first_program);
 }
 
 TEST_F(Launcher, HelpsWithoutBuilding) {
@@ -187,7 +187,7 @@ TEST_F(Launcher, HelpsWithoutBuilding) {
   const Ran ran = run_shell(line + "--help");
   EXPECT_EQ(ran.status, 0);
   std::set<std::string> headings;
-  for (const Row& row : table) {
+  for (const CommandRow& row : command_table) {
     headings.insert(row.heading);
     EXPECT_THAT(ran.text, HasSubstr("\n" + row.heading + "\n"));
     EXPECT_THAT(ran.text, HasSubstr("\n  " + row.name + " "));

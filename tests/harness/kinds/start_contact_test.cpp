@@ -3,12 +3,12 @@
 
 #include "harness/kinds/kind.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/harness/check/kinds/planted_kinds.h"
+#include "tests/harness/kinds/planted_kinds.h"
 
 namespace touchstone {
 namespace {
 
-using check::FamilyCount;
+using FamilyCount = kinds::GradeCount;
 using kinds::CaseForm;
 using kinds::Contestant;
 

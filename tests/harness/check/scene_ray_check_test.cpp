@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "harness/check/check_run.h"
-#include "tests/harness/check/kinds/planted_kinds.h"
+#include "tests/harness/kinds/planted_kinds.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
