@@ -12,7 +12,7 @@ import common
 # From the outcome that one hopes for to the one that one fears; drawn from below in this order.
 OUTCOMES = {
     "right": ("#cfe8dd", "right"),
-    "honest": ("#E69F00", "says that it fails"),
+    "honest": ("#E69F00", "gave up"),
     "rounded": ("#f2b9d6", "wrong, as the input was rounded"),
     "silent": ("#C1121F", "silently wrong"),
     "crashed": ("#000000", "crashes"),

@@ -19,7 +19,7 @@ std::string soak_text(const SoakRequest& request, const SoakResult& result,
     totals[{std::get<0>(key), std::get<1>(key)}].add(count);
   }
   base::Table table({"algorithm", "pairs", "separated", "touching", "overlapping", "unresolved",
-                     "silent errors", "honest failures", "lost"});
+                     "silent errors", "gave up", "failed"});
   for (const auto& [key, count] : totals) {
     std::vector<std::string> row = {
         fmt::format("{} {}", request.narrow[key.first]->info.name, to_string(key.second))};

@@ -118,8 +118,9 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
       fmt::format(
           "# Tables of {}\n\n{}\nTimes are medians over rounds in which every algorithm is timed "
           "once, "
-          "in shuffled order; intervals are those of the sign test at\n95 %. All answers were held "
-          "against exact ones before. Bold: the fastest of ours, and of the peers, with no wrong "
+          "in shuffled order; intervals are those of the sign test at\n95 %. Answers were graded "
+          "first: results/method.md says against what. Bold: the fastest of ours, and of the "
+          "peers, with no wrong "
           "answer.\n\n## Ours against the libraries\n\n{}\n{}{}",
           name, facts_of(folder), best.markdown(), speed_up_section(speed_ups), sections));
   return best.text(base::page_width());

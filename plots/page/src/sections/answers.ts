@@ -95,9 +95,9 @@ function checked(folder: Folder, origins: Record<string, string>): string[] {
     if (rows.length === 0) return [];
     return [
       `${count_text(total(rows, "answers"))} answers of ${subject} were graded against exact arithmetic: ` +
-        `${count_text(total(rows, "silent"))} are on the wrong side of contact and do not say so${most_silent(rows)}, ` +
-        `${count_text(total(rows, "honest"))} are failures that were said, ` +
-        `${count_text(total(rows, "crashed"))} are crashes.`,
+        `${count_text(total(rows, "silent"))} are silently on the wrong side of contact${most_silent(rows)}, ` +
+        `${count_text(total(rows, "honest"))} gave up, ` +
+        `${count_text(total(rows, "crashed"))} crashed.`,
     ];
   });
 }
@@ -120,7 +120,7 @@ function soaked(folder: Folder): string[] {
   if (rows.length === 0) return [];
   return [
     `In a soak ${count_text(total(rows, "pairs"))} verdicts were compared with exact ones: ` +
-      `${count_text(total(rows, "silent"))} silently wrong, ${count_text(total(rows, "lost"))} lost.`,
+      `${count_text(total(rows, "silent"))} silently wrong, ${count_text(total(rows, "lost"))} failed.`,
   ];
 }
 
