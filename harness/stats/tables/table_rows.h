@@ -30,6 +30,7 @@ void columns(Row& row, Visit visit) {
                    visit);
   visit("minimum", row.minimum, "Least time of all samples, noisy ones too, seconds.");
   for (const record::Phase phase : base::enumerators<record::Phase>) {
+    if (phase == record::Phase::answer) continue;  // of timed sets, which have tables of their own
     visit(to_string(phase), row.parts[static_cast<std::size_t>(phase)],
           phase == record::Phase::convert
               ? "Median of the checked frames: the part of a peer's build or update that converts "
