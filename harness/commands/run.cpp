@@ -157,7 +157,7 @@ void report(const campaign::Campaign& campaign, const campaign::RunResult& resul
     fmt::print("{}\n{}\n", report.tables, record::departures_text(result.findings));
     if (!report.published.empty()) fmt::print("{}\n", report.published);
   }
-  fmt::print("{}", report.summary);
+  print_summary(folder, report.summary);
 }
 
 int run(const RunOptions& options) {
