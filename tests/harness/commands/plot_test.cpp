@@ -85,7 +85,7 @@ TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
 TEST(Plots, CellsWithACrossBesideWhoIsWrong) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
-  const std::string header = "group,cell,algorithm,origin,missed,false_hits,other,status,seconds\n";
+  const std::string header = "group,cell,algorithm,origin,missed,false_hits,inexact,status,seconds\n";
   const std::string rows =
       "hit,box,first,ours,0,0,0,ok,1e-7\nhit,box,second,peer,3,0,0,ok,2e-7\n"
       "miss,box,first,ours,0,0,0,ok,2e-7\nmiss,box,second,peer,,,,unsupported,\n";

@@ -40,6 +40,8 @@ class Task:
     def __init__(self, plan, shard, process):
         self.plan, self.shard, self.process = plan, shard, process
         text = pathlib.Path("/proc", str(process), "environ").read_bytes().decode()
+        if not text:
+            raise ProcessLookupError(f"process {process} is about to run another program")
         self.environment = dict(line.partition("=")[::2] for line in text.split("\0"))
 
     @property
