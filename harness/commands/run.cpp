@@ -63,7 +63,8 @@ campaign::Campaign campaign_of(const RunOptions& options) {
     throw base::InputError(fmt::format(
         "--scene {0}: its bodies move far within a frame, and this command asks what they do at "
         "the "
-        "frames alone; expected touchstone trade {0} --motion, or touchstone run with a file of "
+        "frames alone; expected touchstone advise {0} --front --motion, or touchstone run with a "
+        "file of "
         "[cells] of the kind motion, as datasets/campaigns/motion.toml",
         file));
   }

@@ -1,4 +1,4 @@
-// touchstone run: a shard of a plan, or a file with a table [trade], [check], [stress], [soak] or [cells].
+// touchstone run: a shard of a plan, or a file with a table [trade], [check] or [cells].
 #include <fmt/format.h>
 #include <sched.h>
 
@@ -98,7 +98,7 @@ int run_file(const RunFileOptions& options, const Option& threads) {
   if (!options.plan.empty()) return run_shard(options);
   const bool is_of_cells = cells::has_cells(options.file);
   if (!is_of_cells && check::has_case_work(options.file)) return run_cases(options);
-  expect_not_given({threads}, "with a shard, or a table [check], [stress] or [soak] alone");
+  expect_not_given({threads}, "with a shard, or a table [check] alone");
   return is_of_cells ? run_cells(options) : run_trades(options);
 }
 

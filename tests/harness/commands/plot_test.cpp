@@ -1,4 +1,4 @@
-// Tests of the scripts in plots/, through `touchstone plot`.
+// Tests of the scripts in plots/, through `touchstone show --figures`.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -67,7 +67,7 @@ TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
   const std::string sweep = (folder.path() / "sweep").string();
-  const Ran made = run_program("stress --narrow gjk,ode --axes gap --cases 2 --out " + sweep);
+  const Ran made = run_program("check --narrow gjk,ode --axes gap --cases 2 --out " + sweep);
   ASSERT_EQ(made.status, 0) << made.text;
   const std::string own = folder.read("sweep/figures/stress_ours.svg");
   for (const char* out : {"one", "two"}) {
@@ -85,7 +85,8 @@ TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
 TEST(Plots, CellsWithACrossBesideWhoIsWrong) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
-  const std::string header = "group,cell,algorithm,origin,missed,false_hits,inexact,status,seconds\n";
+  const std::string header =
+      "group,cell,algorithm,origin,missed,false_hits,inexact,status,seconds\n";
   const std::string rows =
       "hit,box,first,ours,0,0,0,ok,1e-7\nhit,box,second,peer,3,0,0,ok,2e-7\n"
       "miss,box,first,ours,0,0,0,ok,2e-7\nmiss,box,second,peer,,,,unsupported,\n";
