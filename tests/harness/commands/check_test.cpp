@@ -190,8 +190,8 @@ TEST_F(CheckCommand, FilesSayTheSameAsOptions) {
     EXPECT_EQ(check(options).status, 0);
     EXPECT_EQ(folder.read("file/" + rows), folder.read("out/" + rows)) << file;
   }
-  touchstone::expect_refusal("run " + path("both.toml") + out(),
-                             "expected it without `axes`", folder);
+  touchstone::expect_refusal("run " + path("both.toml") + out(), "expected it without `axes`",
+                             folder);
 }
 
 // `show` prints what the work ended with.

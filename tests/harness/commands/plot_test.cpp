@@ -14,10 +14,7 @@ const std::string python = std::string(project_folder) + "/plots/python";
 
 bool has_matplotlib() { return run_shell(python + " -c ''").status == 0; }
 
-Ran plot(const std::string& arguments) {
-  return run_shell(python + " -B " + std::string(project_folder) +
-                   "/plots/plot.py --program " TOUCHSTONE_PROGRAM " " + arguments);
-}
+Ran plot(const std::string& arguments) { return run_program("show --figures " + arguments); }
 
 // Makes scenes at three counts and two widths, with a peer, and narrow phases that fail and err.
 FakeRun varied_run() {

@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-struct Row {
+struct CommandRow {
   std::string program, name, heading;
 };
 
-const std::vector<Row> table = {
+const std::vector<CommandRow> table = {
 #define TOUCHSTONE_COMMAND(program, name, takes, heading, about) {#program, #name, heading},
 #include "harness/commands/commands.inl"
 };
@@ -142,7 +142,7 @@ std::vector<std::string> lines_of_readme() {
 
 TEST_F(Launcher, BuildsWhatEveryCommandOfTheReadmeRuns) {
   std::map<std::string, std::string> program;
-  for (const Row& row : table) program[row.name] = row.program;
+  for (const CommandRow& row : table) program[row.name] = row.program;
   std::vector<std::string> lines = lines_of_readme();
   lines.emplace_back("test");
   std::set<std::string> seen;
@@ -156,7 +156,7 @@ TEST_F(Launcher, BuildsWhatEveryCommandOfTheReadmeRuns) {
     if (name == "bench") programs = {"touchstone_bench"};
     expect_built(line, programs);
   }
-  for (const Row& row : table)
+  for (const CommandRow& row : table)
     EXPECT_TRUE(seen.contains(row.name)) << row.name << " of commands.inl";
 }
 
@@ -202,7 +202,7 @@ TEST_F(Launcher, HelpsWithoutBuilding) {
   const Ran ran = run_shell(line + "--help");
   EXPECT_EQ(ran.status, 0);
   std::set<std::string> headings;
-  for (const Row& row : table) {
+  for (const CommandRow& row : table) {
     headings.insert(row.heading);
     EXPECT_THAT(ran.text, HasSubstr("\n" + row.heading + "\n"));
     EXPECT_THAT(ran.text, HasSubstr("\n  " + row.name + " "));
