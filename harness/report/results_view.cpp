@@ -197,8 +197,8 @@ std::vector<fs::path> folders_with_tables(const fs::path& folder) {
   }
   if (folders.empty()) {
     throw base::InputError(folder.string() +
-                           ": no CSV file in it; expected a folder that run, check, stress, soak, "
-                           "trade or advise wrote");
+                           ": no CSV file in it; expected a folder that run, check or "
+                           "advise wrote");
   }
   std::ranges::sort(folders);
   return folders;

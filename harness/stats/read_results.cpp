@@ -210,7 +210,7 @@ Results read_results(const std::filesystem::path& folder_or_file, const OriginOf
     throw base::InputError(
         of_machines.begin()->second.file.string(), 0,
         fmt::format("has rows of {} machines, whose times are not pooled; "
-                    "expected the rows of one (`touchstone tables` on the folder "
+                    "expected the rows of one (`touchstone show --tables` on the folder "
                     "makes tables of each)",
                     of_machines.size()));
   }

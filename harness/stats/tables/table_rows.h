@@ -68,7 +68,7 @@ void columns(Row& row, Visit visit, double band) {
   tested_columns(row, "Time over the baseline's: the median of paired log ratios over the squares.",
                  visit);
   visit("band_low", record::derived([&, band] { return row.ratio.low / band; }),
-        "Lower end of the band in which `tables --check` wants the interval to lie.");
+        "Lower end of the band in which `reproduce` wants the interval to lie.");
   visit("band_high", record::derived([&, band] { return row.ratio.high * band; }),
         "Upper end of that band.");
   visit("suspect", row.suspect,

@@ -30,7 +30,7 @@ before(async () => {
       "points.csv":
         "point,front,error,seconds,seconds_low,seconds_high\nfast,1,0.1,0.001,0.0009,0.0011\nright,1,0,0.01,0.009,0.011\n",
       "machine.csv":
-        'name,value\nprocessor,a processor\ncommand_line,touchstone trade\n"scene grid, 100 bodies",h100\n',
+        'name,value\nprocessor,a processor\ncommand_line,touchstone advise --front\n"scene grid, 100 bodies",h100\n',
     },
     [pair, deep_pair],
   );
