@@ -156,6 +156,7 @@ class Plan:
             words = pathlib.Path("/proc", process, "cmdline").read_bytes().decode(errors="replace").split("\0")
         except OSError:
             return None
+        words = [word for word in words if not word.startswith("--of-build=")]  # of one program for the other
         marks = ["run", "--plan", str(self.folder), "--shard"]
         return int(words[5]) if words[1:5] == marks else None
 
