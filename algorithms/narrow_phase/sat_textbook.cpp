@@ -13,7 +13,7 @@
 //          apart.
 // Fails:   not_converged with bounds where the angles hide the side of contact or more of the depth than the tolerance, as at
 //          slivers and between edges that are 1e-8 to 1e-12 from parallel; degenerate for a hull without volume or without faces;
-//          capacity where all axes would take more than a hundred million products. Takes boxes and hulls.
+//          capacity where the normals, or the pairs of edges, would take more than a hundred million products. Takes boxes and hulls.
 // Cost:    O((Fa + Fb + Ea Eb) (Va + Vb)) time; O(V + F + E) memory.
 #include <algorithm>
 #include <cmath>
@@ -154,6 +154,7 @@ class SatTextbook final : public NarrowPhase {
       place(*shape_a.shape, pose_a.rotation, c.unit(), rounding, corners_, axes_a_);
       place(*shape_b.shape, pose_b.rotation, c.unit(), rounding, corners_, axes_b_);
       solve_pair(c, vertices_of(*shape_a.shape) + vertices_of(*shape_b.shape), task, outcomes[i]);
+      outcomes[i].support_calls = c.support_calls();
     }
   }
 
@@ -167,24 +168,23 @@ class SatTextbook final : public NarrowPhase {
 
   // `vertices`: those of both.
   void solve_pair(Difference& c, double vertices, Task task, Outcome& outcome) const {
+    const auto count = [](const auto& a) { return static_cast<double>(a.size()); };
+    const double normals = count(axes_a_.normals) + count(axes_b_.normals);
+    const double edge_pairs = count(axes_a_.edges) * count(axes_b_.edges);
+    outcome.status = Status::capacity;
+    if (normals * vertices > most_products) return;
     Test test(c);
     bool is_separated = false;
     for (const Axes* axes : {&axes_a_, &axes_b_}) {
       for (const Axis& normal : axes->normals)
         is_separated = is_separated || test.separates(normal, false);
     }
-    const double axes =
-        static_cast<double>(axes_a_.edges.size()) * static_cast<double>(axes_b_.edges.size());
-    if (!is_separated && axes * vertices > most_products) {
-      outcome.status = Status::capacity;
-      return;
-    }
+    if (!is_separated && edge_pairs * vertices > most_products) return;
     for (const Axis& edge_a : axes_a_.edges) {
       for (const Axis& edge_b : axes_b_.edges)
         is_separated = is_separated || test.separates(edge_a, edge_b);
     }
     outcome.iterations = test.tested();
-    outcome.support_calls = c.support_calls();
     if (is_separated) {
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;

@@ -107,7 +107,7 @@ TEST_P(Textbook, IsRightWhereItSaysSoOnHardPairs) {
       for (const ShapeKind kind_b : all_shape_kinds) {
         if (kind_b < kind_a || !offers(entry(), kind_a, kind_b, entry().tasks[0])) continue;
         const Tally tally =
-            check_all(sort, {kind_a, kind_b}, static_cast<std::size_t>(drawn(40, 4)));
+            check_all(sort, {kind_a, kind_b}, static_cast<std::size_t>(drawn(20, 4)));
         if (HasFailure()) return;
         add(all, tally);
         if (sort == Sort::plain && kind_a == ShapeKind::box && kind_b == ShapeKind::box) {
@@ -203,6 +203,33 @@ INSTANTIATE_TEST_SUITE_P(Plain, Textbook,
                            }
                            return name;
                          });
+
+// A hull of which all axes would take minutes is refused before the first of them.
+TEST(SatTextbook, RefusesHullsOfTooManyVertices) {
+  const int count = 20'000;
+  std::vector<Vec3d> points;
+  std::vector<std::vector<std::uint32_t>> loops(2);
+  for (int level = 0; level < 2; ++level) {
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * M_PI * k / count;
+      points.emplace_back(std::cos(angle), std::sin(angle), level);
+      loops[static_cast<std::size_t>(level)].push_back(
+          static_cast<std::uint32_t>(level == 0 ? count - 1 - k : count + k));
+    }
+  }
+  for (int k = 0; k < count; ++k) {
+    const auto here = static_cast<std::uint32_t>(k),
+               next = static_cast<std::uint32_t>((k + 1) % count);
+    loops.push_back({here, next, next + count, here + count});
+  }
+  const Shape prism = hull(std::move(points), loops);
+  const NarrowPhaseEntry& entry = *find_narrow_phase("sat-textbook");
+  const Outcome outcome =
+      ask(entry, settings_of(Precision::float64), Task::intersect, prism, {}, prism, {});
+  EXPECT_EQ(outcome.status, Status::capacity);
+  EXPECT_EQ(outcome.answer, Answer::unknown);
+  EXPECT_EQ(outcome.support_calls, 0);
+}
 
 // A support point of a body without extent along the direction, and of one without any.
 TEST(SupportPoint, OfAFlatEllipsoidIsANumber) {
