@@ -30,7 +30,8 @@ struct TimedContestant {
   std::string name;  // the algorithm's, and the scalar's where it offers several
   Origin origin = Origin::ours;
   bool approximate = false;  // its errors are known, and are no fault
-  // Readies it, untimed, once in each process and before the first answer there; may be null.
+  // Readies it, untimed, once in each process and before the first answer there; may be null. What
+  // begins threads, such as the binding of Embree, stands here: a process with threads cannot fork.
   std::function<void()> prepare = {};
   std::function<void()> answer;       // answers all queries; this is timed
   std::function<TimedGrade()> grade;  // judges the last answers

@@ -72,7 +72,7 @@ TimedGrade grade_points(const PointInput& input, PointTask task, Precision scala
   return sum;
 }
 
-// The sets of one mesh. What is bound to it serves all of them.
+// The sets of one mesh.
 class PointSets {
  public:
   PointSets(std::shared_ptr<const MeshInput> mesh, std::vector<const PointQueryEntry*> entries,
@@ -84,7 +84,7 @@ class PointSets {
     input->points = make_points(*mesh_, place, count_, seed_);
     input->exact.resize(count_);
     input->size = base::length(mesh_->high - mesh_->low);
-    bound(*registry::find<PointQueryEntry>("exact"))->query(task, input->points, input->exact);
+    exact().query(task, input->points, input->exact);
     const double reach = point_reach(Vec3d::Zero(), mesh_->mesh);
     for (const Vec3d& point : input->points) {
       input->reaches.push_back(std::max(reach, point.norm()));
@@ -93,12 +93,16 @@ class PointSets {
     cell.queries = cell.graded = static_cast<std::int64_t>(count_);
     for (const PointQueryEntry* entry : entries_) {
       if (std::ranges::count(entry->tasks, task) == 0) continue;
-      const std::shared_ptr<PointQuery> query = bound(*entry);
+      const auto query = std::make_shared<std::unique_ptr<PointQuery>>();
       const auto answers = std::make_shared<std::vector<PointAnswer>>(count_);
       TimedContestant contestant;
       contestant.name = entry->info.name;
       contestant.origin = entry->info.origin;
-      contestant.answer = [=] { query->query(task, input->points, *answers); };
+      contestant.prepare = [=, mesh = mesh_] {
+        *query = entry->make();
+        (*query)->bind(mesh->mesh);
+      };
+      contestant.answer = [=] { (*query)->query(task, input->points, *answers); };
       contestant.grade = [=, scalar = entry->scalar] {
         return grade_points(*input, task, scalar, *answers);
       };
@@ -114,20 +118,19 @@ class PointSets {
   }
 
  private:
-  std::shared_ptr<PointQuery> bound(const PointQueryEntry& entry) {
-    std::shared_ptr<PointQuery>& query = bound_[&entry];
-    if (!query) {
-      query = entry.make();
-      query->bind(mesh_->mesh);
+  PointQuery& exact() {
+    if (!exact_) {
+      exact_ = registry::find<PointQueryEntry>("exact")->make();
+      exact_->bind(mesh_->mesh);
     }
-    return query;
+    return *exact_;
   }
 
   std::shared_ptr<const MeshInput> mesh_;
   std::vector<const PointQueryEntry*> entries_;
   std::size_t count_;
   std::uint64_t seed_;
-  std::map<const PointQueryEntry*, std::shared_ptr<PointQuery>> bound_;
+  std::unique_ptr<PointQuery> exact_;
 };
 
 }  // namespace

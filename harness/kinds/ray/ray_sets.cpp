@@ -99,7 +99,7 @@ TimedGrade grade_ray_set(const RayInput& input, RayTask task, const RayCastEntry
   return sum;
 }
 
-// The sets of one mesh. What is bound to it, and the exact answers, serve several of them.
+// The sets of one mesh. The exact answers serve several of them.
 class RaySets {
  public:
   RaySets(std::shared_ptr<const MeshInput> mesh, std::vector<const RayCastEntry*> entries,
@@ -119,23 +119,17 @@ class RaySets {
   }
 
  private:
-  std::shared_ptr<RayCast> bound(const RayCastEntry& entry, Precision scalar) {
-    std::shared_ptr<RayCast>& caster = bound_[{&entry, scalar}];
-    if (!caster) {
-      caster = entry.make({.scalar = scalar});
-      caster->bind(mesh_->mesh);
-    }
-    return caster;
-  }
-
   std::shared_ptr<const RayInput> input_of(Aim aim) {
     if (last_ && last_aim_ == aim) return last_;
     const auto input = std::make_shared<RayInput>();
     input->rays = make_rays(*mesh_, aim, count_, seed_);
     input->size = 0.5 * base::length(mesh_->high - mesh_->low);
     input->exact.resize(input->rays.size());
-    bound(*registry::find<RayCastEntry>("exact"), Precision::float64)
-        ->cast(RayTask::closest, input->rays, input->exact);
+    if (!exact_) {
+      exact_ = registry::find<RayCastEntry>("exact")->make({.scalar = Precision::float64});
+      exact_->bind(mesh_->mesh);
+    }
+    exact_->cast(RayTask::closest, input->rays, input->exact);
     last_ = input;
     last_aim_ = aim;
     return input;
@@ -143,14 +137,18 @@ class RaySets {
 
   TimedContestant contestant(const std::shared_ptr<const RayInput>& input, RayTask task,
                              const RayCastEntry& entry, Precision scalar) {
-    const std::shared_ptr<RayCast> caster = bound(entry, scalar);
+    const auto caster = std::make_shared<std::unique_ptr<RayCast>>();
     const auto hits = std::make_shared<std::vector<RayHit>>(input->rays.size());
     TimedContestant made;
     made.name = entry.info.name;
     if (entry.scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
     made.origin = entry.info.origin;
     made.approximate = !entry.exact_verdicts;
-    made.answer = [=] { caster->cast(task, input->rays, *hits); };
+    made.prepare = [=, &entry, mesh = mesh_] {
+      *caster = entry.make({.scalar = scalar});
+      (*caster)->bind(mesh->mesh);
+    };
+    made.answer = [=] { (*caster)->cast(task, input->rays, *hits); };
     made.grade = [=, &entry] { return grade_ray_set(*input, task, entry, scalar, *hits); };
     made.hash = [=] {
       return hash_of_answers(std::span<const RayHit>(*hits), [](const RayHit& one) {
@@ -164,7 +162,7 @@ class RaySets {
   std::vector<const RayCastEntry*> entries_;
   std::size_t count_;
   std::uint64_t seed_;
-  std::map<std::pair<const RayCastEntry*, Precision>, std::shared_ptr<RayCast>> bound_;
+  std::unique_ptr<RayCast> exact_;
   std::shared_ptr<const RayInput> last_;
   Aim last_aim_ = Aim::incoherent;
 };

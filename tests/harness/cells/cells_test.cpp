@@ -84,6 +84,24 @@ TEST(Cells, OfPoints) {
   }
 }
 
+// Embree begins threads when a mesh of this size is bound, and a process with threads cannot fork.
+TEST(Cells, OfLibrariesThatBeginThreads) {
+  const TemporaryFolder folder;
+  for (const std::string kind : {"ray", "point"}) {
+    const auto request = cells::read_cells(folder.write(
+        "cells.toml", "[cells]\nkind = \"" + kind +
+                          "\"\nmeshes = \"trefoil-10000\"\nqueries = 64\ntasks = \"closest\"\n"
+                          "rounds = 6\nsample_seconds = 1e-5\n"));
+    EXPECT_EQ(request.query_kind, kind);
+    const Ran ran = run(request, folder.path() / kind);
+    EXPECT_FALSE(ran.times.empty());
+    for (const stats::CellTimeRow& row : ran.times) {
+      EXPECT_EQ(row.grade.status, "ok") << row.grade.algorithm;
+      EXPECT_GT(row.seconds, 0) << row.grade.algorithm;
+    }
+  }
+}
+
 TEST(Cells, OfCasts) {
   const TemporaryFolder folder;
   const auto request =
