@@ -40,7 +40,7 @@ def read(folder):
         with common.open_rows(os.path.join(folder, "envelope.csv")) as file:
             ours = {row["algorithm"] for row in csv.DictReader(file) if row["origin"] == "ours"}
     except FileNotFoundError as error:
-        raise common.BadRequest(f"{error.filename} is missing; `touchstone stress` writes it") from None
+        raise common.BadRequest(f"{error.filename} is missing; `touchstone check --axes` writes it") from None
     except (ValueError, TypeError, KeyError) as error:
         raise common.BadRequest(f"{path}: {error}") from None
     return maps, values, ours

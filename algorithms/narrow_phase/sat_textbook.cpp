@@ -11,7 +11,7 @@
 //          them, axes of faces are as good up to their angle.
 // Answers: `lower` and `upper` are certified. No witness points. `touching` within bounds that are at most 6e-14 of the size
 //          apart.
-// Fails:   not_converged with bounds where the angles hide the side of contact or more of the depth than the tolerance, as at
+// Fails:   not_converged with bounds where the angles hide the side of contact or more than 1e-10 of the size of a depth, as at
 //          slivers and between edges that are 1e-8 to 1e-12 from parallel; degenerate for a hull without volume or without faces;
 //          capacity where the normals, or the pairs of edges, would take more than a hundred million products. Takes boxes and hulls.
 // Cost:    O((Fa + Fb + Ea Eb) (Va + Vb)) time; O(V + F + E) memory.
@@ -134,9 +134,6 @@ class Test {
 
 class SatTextbook final : public NarrowPhase {
  public:
-  explicit SatTextbook(const NarrowPhaseSettings& settings)
-      : tolerance_(settings.tolerance.value_or(1e-10)) {}
-
   void bind(std::span<const Shape> shapes) override { shapes_ = textbook::bind_shapes(shapes); }
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
@@ -201,13 +198,13 @@ class SatTextbook final : public NarrowPhase {
     outcome.lower = c.unit() * test.lower();
     outcome.upper = c.unit() * test.upper();
     outcome.normal = test.normal();
-    if (test.upper() - test.gap() > tolerance_ + 4 * c.rounding())
+    if (test.upper() - test.gap() > most_hidden + 4 * c.rounding())
       outcome.status = Status::not_converged;
   }
 
   static constexpr double most_products = 1e8;
+  static constexpr double most_hidden = 1e-10;  // of a depth, by rounding; in the unit of C
 
-  double tolerance_;  // in the unit of C
   std::vector<textbook::BoundShape> shapes_;
   std::vector<Vec3d> corners_;
   Axes axes_a_, axes_b_;
@@ -233,9 +230,8 @@ std::vector<NarrowPhaseEntry> narrow_phase_sat_textbook() {
            .tasks = {Task::intersect, Task::penetration},
            .scalars = {Precision::float64},
            .supports = are_boxes_or_hulls,
-           .tolerance = "how much of a depth rounding may hide; 1e-10",
-           .make = [](const NarrowPhaseSettings& settings) -> std::unique_ptr<NarrowPhase> {
-             return std::make_unique<SatTextbook>(settings);
+           .make = [](const NarrowPhaseSettings&) -> std::unique_ptr<NarrowPhase> {
+             return std::make_unique<SatTextbook>();
            }}};
 }
 

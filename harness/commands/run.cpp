@@ -64,7 +64,8 @@ campaign::Campaign campaign_of(const RunOptions& options) {
     throw base::InputError(fmt::format(
         "--scene {0}: its bodies move far within a frame, and this command asks what they do at "
         "the "
-        "frames alone; expected touchstone trade {0} --motion, or touchstone run with a file of "
+        "frames alone; expected touchstone advise {0} --front --motion, or touchstone run with a "
+        "file of "
         "[cells] of the kind motion, as datasets/campaigns/motion.toml",
         file));
   }
@@ -179,7 +180,7 @@ void report(const campaign::Campaign& campaign, const campaign::RunResult& resul
     fmt::print("{}\n{}\n", report.tables, record::departures_text(result.findings));
     if (!report.published.empty()) fmt::print("{}\n", report.published);
   }
-  fmt::print("{}", report.summary);
+  print_summary(folder, report.summary);
 }
 
 int run(const RunOptions& options) {

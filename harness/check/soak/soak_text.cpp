@@ -36,7 +36,7 @@ std::string soak_text(const SoakRequest& request, const SoakResult& result,
   const std::int64_t asked = result.drawn / cases_a_soak_job;
   if (asked < all && !result.interrupted) {
     text += fmt::format(
-        "\nOnly {} of {} regimes and families were asked, each {} cases; --pairs {} asks "
+        "\nOnly {} of {} regimes and families were asked, each {} cases; --count {} asks "
         "all.\n",
         asked, all, cases_a_soak_job, all * cases_a_soak_job);
   }

@@ -223,7 +223,7 @@ TEST(SatTextbook, RefusesHullsOfTooManyVertices) {
     loops.push_back({here, next, next + count, here + count});
   }
   const Shape prism = hull(std::move(points), loops);
-  const NarrowPhaseEntry& entry = *find_narrow_phase("sat-textbook");
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("sat-textbook");
   const Outcome outcome =
       ask(entry, settings_of(Precision::float64), Task::intersect, prism, {}, prism, {});
   EXPECT_EQ(outcome.status, Status::capacity);

@@ -196,7 +196,7 @@ TEST_F(FamilyCheck, SoaksThatAreTooSmallSaySo) {
   request.pairs = 500;
   const std::string text = check::soak_text(request, check::run_soak(request), 120);
   EXPECT_THAT(text, HasSubstr("Only 1 of 6 regimes and families were asked, each 1000 "
-                              "cases; --pairs 6000 asks all."));
+                              "cases; --count 6000 asks all."));
   EXPECT_THAT(text, HasSubstr("Bodies that need not be convex"));
   EXPECT_THAT(text, Not(HasSubstr("Points")));
 }

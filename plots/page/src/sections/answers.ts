@@ -12,7 +12,7 @@ export function answers(folder: Folder, origins: Record<string, string>): string
     ...timed(folder),
     ...fastest(folder.rows("broad_best.csv"), "peer", "peer_ratio", "Broad phases"),
     ...fastest(folder.rows("narrow_best.csv"), "right_peer", "right_peer_ratio", "Narrow phases"),
-    ...fastest(folder.rows("best.csv"), "peer", "ratio", "Cells"),
+    ...fastest(folder.rows("set_best.csv"), "peer", "ratio", "Cells"),
     ...agreed(folder),
     ...checked(folder, origins),
     ...swept(folder),
@@ -24,7 +24,7 @@ export function answers(folder: Folder, origins: Record<string, string>): string
 }
 
 function timed(folder: Folder): string[] {
-  const times = folder.rows("times.csv");
+  const times = [...folder.rows("times.csv"), ...folder.rows("set_times.csv")];
   if (times.length === 0) return [];
   const sets = distinct(times.map((row) => set_key(row))).length;
   const algorithms = distinct(times.map((row) => row.text("algorithm"))).length;

@@ -1,4 +1,4 @@
-// touchstone draw: draws a frame of a scene.
+// touchstone scene draw: draws a frame of a scene.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -130,7 +130,7 @@ void draw(const DrawOptions& options) {
 
 }  // namespace
 
-void add_draw(Arguments command) {
+void add_scene_draw(Arguments command) {
   auto options = std::make_shared<DrawOptions>();
   command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
       .required();

@@ -1,4 +1,4 @@
-// touchstone record: writes the boxes of a scene, frame by frame, for other programs.
+// touchstone scene record: writes the boxes of a scene, frame by frame, for other programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ void record(const RecordOptions& options) {
 
 }  // namespace
 
-void add_record(Arguments command) {
+void add_scene_record(Arguments command) {
   const auto options = std::make_shared<RecordOptions>();
   command.text("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc) or .aabbs")
       .required();

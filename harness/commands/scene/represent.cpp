@@ -1,4 +1,4 @@
-// touchstone represent: makes proxies of a scene's bodies, and measures their errors.
+// touchstone scene represent: makes proxies of a scene's bodies, and measures their errors.
 // The proxies come from coarse to fine.
 #include <fmt/core.h>
 
@@ -183,7 +183,7 @@ bool run(const RepresentOptions& options) {
 
 }  // namespace
 
-void add_represent(Arguments command) {
+void add_scene_represent(Arguments command) {
   auto options = std::make_shared<RepresentOptions>();
   command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").required();
   command
