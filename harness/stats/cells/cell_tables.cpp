@@ -132,9 +132,9 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
           "round, in "
           "shuffled Latin squares.\nTimes are medians over the squares; intervals are those of the "
           "sign "
-          "test at 95 %. Answers were graded before, and are compared\nwith the graded ones in "
-          "each "
-          "sample. Bold: the fastest of ours, and of the peers, with no wrong answer. The twin is "
+          "test at 95 %. Answers were graded before (results/method.md says against what), and are "
+          "compared\nwith the graded ones in each sample. Bold: the fastest of ours, and of the "
+          "peers, with no wrong answer. The twin is "
           "a "
           "second\nregistration of the baseline: its ratio shows the error of the measurement.\n\n"
           "## Ours against the libraries\n\n{}\n{}{}",
