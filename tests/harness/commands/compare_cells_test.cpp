@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/record/row.h"
+#include "harness/record/raw_row.h"
 #include "harness/stats/cells/cell_rows.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
@@ -22,7 +22,7 @@ struct MadeUpCells {
   std::string write(const std::filesystem::path& folder) const {
     std::filesystem::create_directories(folder);
     std::vector<stats::GradeRow> grades;
-    std::vector<stats::CellSampleRow> samples;
+    std::vector<record::RawRow> samples;
     for (const auto& [name, seconds] : {std::pair("first", ours), std::pair("second", 200e-9)}) {
       stats::GradeRow& grade = grades.emplace_back();
       grade.group = "hit";
@@ -33,19 +33,27 @@ struct MadeUpCells {
       grade.missed = grades.size() == 1 ? missed : 0;
       grade.status = "ok";
       for (int round = 0; round < 8; ++round) {
-        stats::CellSampleRow& sample = samples.emplace_back();
-        sample.group = grade.group;
-        sample.cell = grade.cell;
+        record::RawRow& sample = samples.emplace_back();
+        sample.kind = record::RowKind::sample;
+        sample.query_kind = "cast";
+        sample.input = grade.group;
+        sample.family = grade.cell;
         sample.algorithm = name;
-        sample.round = round;
+        sample.origin = record::row_origin(grades.size() == 1 ? Origin::ours : Origin::peer);
+        sample.phase = record::Phase::answer;
+        sample.process = 0;
+        sample.square = round;
+        sample.round = sample.position = 0;
         sample.repeats = 1;
-        sample.seconds = seconds * (1 + 0.0005 * round);
+        sample.pair_count = 10;
+        sample.seconds = 10 * seconds * (1 + 0.0005 * round);
+        sample.status = record::RowStatus::ok;
       }
     }
     grades.push_back(grades[1]);
     grades.back().algorithm = "third";
     grades.back().status = "unsupported";
-    record::write_rows(folder / "grades.csv", grades);
+    record::write_rows(folder / "set_grades.csv", grades);
     record::write_rows(folder / "raw.csv", samples);
     std::ofstream(folder / "machine.csv")
         << "name,value\ncells,made-up\nprocessor,Test CPU\ninstructions_in_use,avx2\n"
