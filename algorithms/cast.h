@@ -46,9 +46,9 @@ class Cast {
  public:
   virtual ~Cast() = default;
 
-  // Called once for each scene: prepares what the algorithm needs of each shape, so that no query
-  // does. The shapes stay alive and unchanged. Numbers are finite and sizes >= 0; zero sizes are
-  // valid.
+  // Prepares what the algorithm needs of each shape of a scene, so that no query does. May come again,
+  // and then for another scene in place of this one; the shapes stay alive and unchanged until then.
+  // Numbers are finite and sizes >= 0; zero sizes are valid.
   virtual void bind(std::span<const Shape> shapes) = 0;
 
   // Writes outcomes[i] for each pair i. Never throws on finite input: a failure is a status.

@@ -65,8 +65,8 @@ class ConcavePhase {
  public:
   virtual ~ConcavePhase() = default;
 
-  // Called once for each scene. The bodies stay alive and unchanged. Their numbers are finite, and a
-  // mesh's indices are those of its vertices.
+  // May come again, for another scene in place of this one; the bodies stay alive and unchanged until
+  // then. Their numbers are finite, and a mesh's indices are those of its vertices.
   virtual void bind(std::span<const ConcaveBody> bodies) = 0;
 
   // Writes the answer: `separated`, or `overlapping` if the closed bodies share a point, a touch

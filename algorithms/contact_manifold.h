@@ -56,7 +56,7 @@ class ContactManifold {
  public:
   virtual ~ContactManifold() = default;
 
-  // Prepares the shapes, as NarrowPhase::bind does.
+  // Prepares the shapes, as NarrowPhase::bind does; may come again as that may.
   virtual void bind(std::span<const Shape> shapes) = 0;
 
   // Writes the whole of manifolds[i] for each pair i. The batch is that of a narrow phase. Bodies

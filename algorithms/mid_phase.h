@@ -18,7 +18,7 @@ namespace touchstone {
 // the search.
 using TakePartPairs = std::function<bool(std::span<const IndexPair>)>;
 
-// One instance for each worker, never shared between threads.
+// One instance for each worker, never shared between threads, and for one scene: bodies are added only.
 class MidPhase {
  public:
   virtual ~MidPhase() = default;

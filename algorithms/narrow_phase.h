@@ -71,14 +71,17 @@ struct PairBatch {
   }
 };
 
+// A rotation is taken as it is given, orthonormal or not: it moves the points of a core. The ball of a sphere or capsule stays
+// one of its radius.
+//
 // One instance for each worker, never shared between threads.
 class NarrowPhase {
  public:
   virtual ~NarrowPhase() = default;
 
-  // Called once for each scene: prepares what the algorithm needs of each shape, so that no query
-  // does. The shapes stay alive and unchanged. Numbers are finite and sizes >= 0; zero sizes are
-  // valid.
+  // Prepares what the algorithm needs of each shape of a scene, so that no query does. May come again,
+  // and then for another scene in place of this one; the shapes stay alive and unchanged until then.
+  // Numbers are finite and sizes >= 0; zero sizes are valid.
   virtual void bind(std::span<const Shape> shapes) = 0;
 
   // Writes outcomes[i] for each pair i, whatever it held: all that `only_given` takes of it, NaN

@@ -37,14 +37,15 @@ struct PointAnswer {
 // Triangles are closed, and may be degenerate. For `side` the surface is closed: each edge goes one
 // way as often as the other. A point on a triangle is on the surface; any other is inside if the
 // surface winds around it, either way. A point with NaN or infinity has the status `degenerate`.
+// Where products of coordinates vanish, as of 4.9e-324, the answer to `side` may be `degenerate`.
 //
 // One instance for each worker, never shared between threads.
 class PointQuery {
  public:
   virtual ~PointQuery() = default;
 
-  // Builds what the queries need. The mesh must live until the next call or the instance's end. Its
-  // vertices are finite; it may have no triangles.
+  // Builds what is needed. May come again, for another mesh in place of this one, which must live until
+  // then, or the instance's end. Its vertices are finite; it may have no triangles.
   virtual void bind(const TriangleMesh& mesh) = 0;
 
   // Writes the whole of answers[i] for each point i (mesh coordinates, metres). Never throws.

@@ -55,13 +55,16 @@ struct RayCastSettings {
 // The answer to a ray with NaN or infinity (but for t_max = infinity), or with direction zero, is no
 // hit, with the status `degenerate`. A t_max below zero leaves nothing to hit.
 //
+// The time is that of the triangle to some units in the last place of the coordinates, not of the time itself: from an
+// origin a hair off a face (1e-11 of the size), t has as few correct digits.
+//
 // One instance for each worker, never shared between threads.
 class RayCast {
  public:
   virtual ~RayCast() = default;
 
-  // Builds what the casts need. The mesh must live until the next call or the instance's end. Its
-  // vertices are finite; it may have no triangles.
+  // Builds what is needed. May come again, for another mesh in place of this one, which must live until
+  // then, or the instance's end. Its vertices are finite; it may have no triangles.
   virtual void bind(const TriangleMesh& mesh) = 0;
 
   // Writes the whole of hits[i] for each ray i. Never throws.

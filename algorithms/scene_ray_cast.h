@@ -45,7 +45,7 @@ class SceneRayCast {
  public:
   virtual ~SceneRayCast() = default;
 
-  // Builds what the casts need. Meshes and hulls must live until the next call or the instance's end.
+  // Builds what casts need; may come again, for another scene. Meshes and hulls live until then, or the end.
   virtual void bind(std::span<const SceneBody> bodies) = 0;
   // Moves the bodies to these poses, one for each.
   virtual void place(std::span<const Pose> poses) = 0;

@@ -64,8 +64,7 @@ std::int64_t save_certificates(const CheckRequest& request, const std::filesyste
   return saved;
 }
 
-CertificateVerdicts verify_certificates(const std::filesystem::path& file) {
-  CertificateVerdicts verdicts;
+void verify_certificates(const std::filesystem::path& file, CertificateVerdicts& verdicts) {
   files::read_certificates(file, [&](const files::StoredCertificate& stored, std::int64_t line) {
     const oracle::Solid a(stored.shape_a), b(stored.shape_b);
     const std::string why =
@@ -80,7 +79,6 @@ CertificateVerdicts verify_certificates(const std::filesystem::path& file) {
       verdicts.refused.push_back(fmt::format("{}:{}: {}: {}", file.string(), line, stored.id, why));
     }
   });
-  return verdicts;
 }
 
 }  // namespace touchstone::check

@@ -21,7 +21,8 @@ struct CertificateVerdicts {
   std::int64_t refused_count = 0;
 };
 
-// Verifies every certificate of a file. Throws InputError if the file cannot be read.
-CertificateVerdicts verify_certificates(const std::filesystem::path& file);
+// Verifies every certificate of a file, and counts in `verdicts`. Throws InputError if the file cannot be read, or is
+// malformed from some line on; those before are counted by then.
+void verify_certificates(const std::filesystem::path& file, CertificateVerdicts& verdicts);
 
 }  // namespace touchstone::check

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
 
 #include "harness/base/shell_word.h"
 #include "harness/commands/commands.h"
@@ -242,10 +243,12 @@ Option Arguments::choice(const std::string& name, const std::vector<std::string>
 
 Option Arguments::option(const std::string& name) const { return Option(app_->get_option(name)); }
 
-void Arguments::exclude_others(const std::string& name) {
+void Arguments::exclude_others(const std::string& name, const std::vector<std::string>& except) {
   CLI::Option* const one = app_->get_option(name);
+  std::set<CLI::Option*> allowed = {one, app_->get_help_ptr()};
+  for (const std::string& other : except) allowed.insert(app_->get_option(other));
   for (CLI::Option* other : app_->get_options()) {
-    if (other != one && other != app_->get_help_ptr()) one->excludes(other);
+    if (!allowed.contains(other)) one->excludes(other);
   }
 }
 

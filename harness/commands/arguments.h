@@ -93,8 +93,8 @@ class Arguments {
 
   // Returns the option of this name, which was added before.
   Option option(const std::string& name) const;
-  // Excludes every other option that the command has until now, except --help.
-  void exclude_others(const std::string& name);
+  // Excludes every other option that the command has until now, except --help and these.
+  void exclude_others(const std::string& name, const std::vector<std::string>& except = {});
   // Sets the text below the options in --help.
   void footer(const std::string& text);
 

@@ -26,9 +26,19 @@ struct CheckOptions {
 };
 
 int verify(const std::string& file) {
-  const check::CertificateVerdicts verdicts = check::verify_certificates(file);
-  for (const std::string& line : verdicts.refused) fmt::print("{}\n", line);
-  fmt::print("{} certificates verified, {} refused\n", verdicts.verified, verdicts.refused_count);
+  check::CertificateVerdicts verdicts;
+  const auto print = [&](const char* until) {
+    for (const std::string& line : verdicts.refused) fmt::print("{}\n", line);
+    fmt::print("{} certificates verified, {} refused{}\n", verdicts.verified,
+               verdicts.refused_count, until);
+  };
+  try {
+    check::verify_certificates(file, verdicts);
+  } catch (const base::InputError&) {
+    print(", before what cannot be read");
+    throw;
+  }
+  print("");
   return verdicts.refused_count == 0 ? exit_done : exit_measured_wrong;
 }
 

@@ -18,6 +18,7 @@
 #include "harness/kinds/selection.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
+#include "harness/scene/generators/generators.h"
 #include "harness/stats/run_report.h"
 
 namespace touchstone::commands {
@@ -56,6 +57,15 @@ campaign::Campaign campaign_of(const RunOptions& options) {
                                        ? std::filesystem::path(record::source_folder) /
                                              "datasets/campaigns/standard.toml"
                                        : std::filesystem::path(options.campaign));
+  }
+  for (const std::string& file : options.scenes) {
+    if (!scene::is_scene_of_motion(file)) continue;
+    throw base::InputError(fmt::format(
+        "--scene {0}: its bodies move far within a frame, and this command asks what they do at "
+        "the "
+        "frames alone; expected touchstone trade {0} --motion, or touchstone run with a file of "
+        "[cells] of the kind motion, as datasets/campaigns/motion.toml",
+        file));
   }
   campaign::Campaign campaign;
   campaign.name = "command-line";

@@ -1,14 +1,10 @@
 // Reads plain files, and packed ones through libzstd.
 #include "harness/files/byte_reader.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zstd.h>
 #include <zstd_errors.h>
 
-#include <cerrno>
-#include <cstring>
 #include <new>
 #include <vector>
 
@@ -33,30 +29,18 @@ struct ByteReader::Unpacking {
   Unpacking& operator=(const Unpacking&) = delete;
 };
 
-ByteReader::ByteReader(const std::filesystem::path& file) : file_(file.string()) {
+ByteReader::ByteReader(const std::filesystem::path& file) : file_(file.string()), input_(file) {
   if (is_packed(file)) unpacking_ = std::make_unique<Unpacking>();
-  descriptor_ = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(std::strerror(errno));
 }
 
-ByteReader::~ByteReader() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
+ByteReader::~ByteReader() = default;
 
 void ByteReader::fail(const std::string& message) const {
   throw base::InputError(file_, 0, message);
 }
 
 std::size_t ByteReader::read(std::span<char> buffer) {
-  return unpacking_ ? unpack(buffer) : read_plain(buffer);
-}
-
-std::size_t ByteReader::read_plain(std::span<char> buffer) {
-  for (;;) {
-    const ssize_t got = ::read(descriptor_, buffer.data(), buffer.size());
-    if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno != EINTR) fail(std::strerror(errno));
-  }
+  return unpacking_ ? unpack(buffer) : input_.read(buffer);
 }
 
 std::size_t ByteReader::unpack(std::span<char> buffer) {
@@ -64,7 +48,7 @@ std::size_t ByteReader::unpack(std::span<char> buffer) {
   ZSTD_outBuffer output = {buffer.data(), buffer.size(), 0};
   while (output.pos == 0) {
     if (state.input.pos == state.input.size && !state.more) {
-      state.input.size = read_plain(state.packed);
+      state.input.size = input_.read(state.packed);
       state.input.pos = 0;
       if (state.input.size == 0) {
         if (!state.any) fail("an empty file; expected one that zstd packed");
@@ -86,6 +70,11 @@ std::size_t ByteReader::unpack(std::span<char> buffer) {
     }
     state.in_frame = left != 0;
     state.more = state.in_frame && output.pos == output.size;
+  }
+  unpacked_ += output.pos;
+  if (unpacked_ > base::most_unpacked) {
+    fail(fmt::format("more than {} bytes when it is unpacked; expected at most so many",
+                     base::most_unpacked));
   }
   return output.pos;
 }

@@ -2,16 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 
+#include "harness/base/input_file.h"
+
 namespace touchstone::files {
 
 // Reads a file from its beginning to its end. A file whose name ends in ".zst" is unpacked on the
 // way, in constant memory, and its frames are read as one. Throws InputError with the file's name if
-// it cannot be read, is no zstd, is damaged, or ends in the middle of a frame.
+// it is no regular file or pipe, cannot be read, is no zstd, is damaged, ends in the middle of a frame, or is more
+// than base::most_unpacked when it is unpacked.
 class ByteReader {
  public:
   explicit ByteReader(const std::filesystem::path& file);
@@ -26,13 +30,13 @@ class ByteReader {
  private:
   struct Unpacking;
 
-  std::size_t read_plain(std::span<char> buffer);
   std::size_t unpack(std::span<char> buffer);
   [[noreturn]] void fail(const std::string& message) const;
 
   std::string file_;
-  int descriptor_ = -1;
+  base::InputFile input_;
   std::unique_ptr<Unpacking> unpacking_;  // null for a plain file
+  std::uint64_t unpacked_ = 0;            // bytes
 };
 
 }  // namespace touchstone::files

@@ -3,21 +3,28 @@
 
 #include <array>
 
+#include "harness/files/key_warnings.h"
 #include "harness/files/motion/case_json.h"
 #include "harness/files/shape_json.h"
 
 namespace touchstone::files {
 std::vector<Case> read_cases(const std::filesystem::path& file) {
   std::vector<Case> cases;
-  for_each_json_line(file, "case",
-                     [&](const JsonNode& line) { read_case(line, cases.emplace_back()); });
+  KeyWarnings warnings;
+  for_each_json_line(file, "case", [&](const JsonNode& line) {
+    read_case(line, cases.emplace_back());
+    warnings.look(line);
+  });
   return cases;
 }
 
 std::vector<CastCase> read_cast_cases(const std::filesystem::path& file) {
   std::vector<CastCase> cases;
-  for_each_json_line(file, "case",
-                     [&](const JsonNode& line) { cases.push_back(read_cast_case(line)); });
+  KeyWarnings warnings;
+  for_each_json_line(file, "case", [&](const JsonNode& line) {
+    cases.push_back(read_cast_case(line));
+    warnings.look(line);
+  });
   return cases;
 }
 

@@ -1,12 +1,10 @@
 // Parses files of JSON objects line by line.
 #include "harness/files/json_line.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <system_error>
+#include <optional>
 
 #include "harness/base/file_text.h"
+#include "harness/files/line_reader.h"
 
 namespace touchstone::files {
 namespace {
@@ -28,24 +26,17 @@ Json parse_line(const std::string& file, std::int64_t number, std::string_view t
 void for_each_json_line(const std::filesystem::path& path, std::string_view what,
                         const std::function<void(const JsonNode&)>& each) {
   const std::string file = path.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw base::InputError(
-        file, 0, fmt::format("a directory; expected a file of {}s, one JSON object a line", what));
-  }
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw base::InputError(file, 0, std::strerror(errno));
+  LineReader lines(path);
   bool any = false;
-  std::string line;
-  for (std::int64_t number = 1; std::getline(stream, line); ++number) {
-    const std::string_view text = number == 1 ? base::without_byte_order_mark(line) : line;
-    if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+  std::int64_t number = 0;
+  while (const std::optional<std::string_view> line = lines.next()) {
+    ++number;
+    const std::string_view text = number == 1 ? base::without_byte_order_mark(*line) : *line;
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) continue;
     const Json value = parse_line(file, number, text);
     any = true;
     each(JsonNode(file, number, value));
   }
-  if (stream.bad()) throw base::InputError(file, 0, std::strerror(errno));
   if (!any) {
     throw base::InputError(file, 1, fmt::format("no {}; expected one JSON object a line", what));
   }

@@ -32,6 +32,7 @@ class JsonNode {
     throw base::InputError(file_, line_, way.empty() ? message : way + ": " + message);
   }
 
+  const std::string& file() const { return file_; }
   std::int64_t line() const { return line_; }
   const Json& value() const { return value_; }
   std::size_t size() const { return value_.size(); }
@@ -113,8 +114,8 @@ class JsonNode {
 };
 
 // Calls `each` for every line that is not blank, in order. Throws InputError if the file cannot be
-// read, is a directory or has no such line, and if a line is not JSON. `what` names the objects in
-// messages.
+// read, as a LineReader does, or has no such line, and if a line is not JSON. A file whose name ends in ".zst" is
+// unpacked on the way. `what` names the objects in messages.
 void for_each_json_line(const std::filesystem::path& file, std::string_view what,
                         const std::function<void(const JsonNode&)>& each);
 

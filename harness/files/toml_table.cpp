@@ -5,9 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <sstream>
+
+#include "harness/base/input_file.h"
 
 namespace touchstone::files {
 namespace {
@@ -37,13 +36,9 @@ std::string show(Limits limits) {
 
 toml::table parse_toml(const std::filesystem::path& path) {
   const std::string file = path.string();
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream content;
-  if (!std::filesystem::is_regular_file(path) || !(content << stream.rdbuf())) {
-    throw base::InputError(file, 0, "cannot be read; expected a TOML file");
-  }
+  const std::string content = base::read_whole(path, base::longest_text, "a TOML file");
   try {
-    return toml::parse(content.str(), file);
+    return toml::parse(content, file);
   } catch (const toml::parse_error& error) {
     throw base::InputError(file, static_cast<std::int64_t>(error.source().begin.line),
                            std::string(error.description()) + "; expected TOML");

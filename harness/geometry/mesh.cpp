@@ -5,9 +5,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
+#include "harness/base/input_file.h"
 #include "harness/geometry/mesh_format.h"
 
 namespace touchstone::geometry {
@@ -115,11 +114,10 @@ Mesh read_mesh(const std::filesystem::path& file) {
     throw base::InputError(file.string(), 0,
                            "unknown mesh format; expected .obj, .off, .stl or .ply");
   }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw base::InputError(file.string(), 0, "cannot be read; expected a mesh file");
+  const std::string text = base::read_whole(file, base::largest_file, "a mesh file");
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    throw base::InputError(file.string(), 1, "text in UTF-16; expected ASCII or UTF-8");
   }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
   Mesh mesh = reader(file.string(), text);
   if (mesh.vertices.empty()) {
     throw base::InputError(file.string(), 0, "the mesh has no vertices; expected at least one");

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "harness/base/error.h"
+#include "harness/base/input_file.h"
 #include "harness/files/output_file.h"
 
 namespace touchstone::scene {
@@ -84,12 +85,17 @@ std::string load_text(const char* from, const std::string& file, std::string_vie
 
 BoxRecording read_aabbs(const std::filesystem::path& path) {
   const std::string file = path.string();
+  base::check_kind(path, "a recording of boxes");
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw base::InputError(file, 0, "cannot be read: " + error.message());
   if (size < header_size) {
     throw base::InputError(file, 0,
                            fmt::format("{} bytes; expected a header of {}", size, header_size));
+  }
+  if (size > base::largest_file) {
+    throw base::InputError(file, 0,
+                           fmt::format("{} bytes; expected at most {}", size, base::largest_file));
   }
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> bytes(header_size);

@@ -8,7 +8,6 @@
 #include "algorithms/core/mesh/common_frame.h"
 #include "algorithms/core/mesh/placed_box.h"
 #include "algorithms/hull/convex_hull.h"
-#include "harness/geometry/mesh_mass.h"
 #include "harness/geometry/shapes/compound.h"
 
 namespace touchstone::scene {
@@ -30,20 +29,10 @@ double stretch_of(const Mat3d& rotation) {
 }  // namespace
 
 ConcaveShape mesh_shape(geometry::Mesh mesh, MeshUse use) {
-  if (use == MeshUse::compound) {
-    ConcaveBody body;
-    for (const geometry::Mesh& part : geometry::connected_parts(mesh)) {
-      body.parts.push_back({reduced_hull(part.vertices), Pose{}});
-    }
-    return compound_shape(std::move(body));
-  }
+  if (use == MeshUse::compound) return compound_shape(geometry::mesh_body(mesh, use));
   ConcaveShape made{reduced_hull(mesh.vertices), nullptr, nullptr};
   if (use != MeshUse::hull) {
-    auto triangles = std::make_shared<TriangleMesh>();
-    triangles->vertices = mesh.vertices;
-    triangles->triangles = mesh.triangles;
-    triangles->solid = use == MeshUse::solid;
-    made.body = std::make_shared<const ConcaveBody>(ConcaveBody{std::move(triangles), {}});
+    made.body = std::make_shared<const ConcaveBody>(geometry::mesh_body(mesh, use));
   }
   made.mesh = std::make_shared<const geometry::Mesh>(std::move(mesh));
   return made;

@@ -8,16 +8,11 @@
 #include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/shape.h"
 #include "harness/geometry/mesh.h"
+#include "harness/geometry/shapes/mesh_body.h"
 
 namespace touchstone::scene {
 
-// What a mesh is in a scene.
-enum class MeshUse : std::uint8_t {
-  surface,   // its triangles
-  solid,     // these and what they wind around
-  hull,      // its convex hull
-  compound,  // the convex hulls of its connected parts, as one body
-};
+using geometry::MeshUse;
 
 struct ConcaveShape {
   Shape hull;

@@ -2,20 +2,15 @@
 #include "harness/scene/json_object.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "harness/base/error.h"
+#include "harness/base/input_file.h"
 
 namespace touchstone::scene {
 
 nlohmann::json parse_json(const std::filesystem::path& file, const std::string& expected) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw base::InputError(file.string(), 0, "cannot be read; expected " + expected);
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string text = base::read_whole(file, base::longest_text, expected);
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& e) {

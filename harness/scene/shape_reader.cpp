@@ -25,8 +25,6 @@ Mat3d axis_turn(std::size_t axis) {
   return turn;
 }
 
-constexpr std::array<std::string_view, 4> use_names = {"surface", "solid", "hull", "compound"};
-
 Vec3d read_scale(files::TomlTable& table) {
   const toml::node* node = table.node("scale");
   return node != nullptr && node->is_array()
@@ -104,13 +102,14 @@ bool is_concave_name(std::string_view type) {
 
 MeshUses read_mesh_uses(files::TomlTable& table, std::optional<MeshUse> instead) {
   MeshUses uses{{}, instead};
-  if (table.has("meshes")) uses.own = static_cast<MeshUse>(table.choice("meshes", use_names));
+  if (table.has("meshes"))
+    uses.own = static_cast<MeshUse>(table.choice("meshes", geometry::mesh_use_names));
   return uses;
 }
 
 MeshUse ShapeReader::use_of(files::TomlTable& table, MeshUse fallback) const {
   const auto usual = static_cast<std::size_t>(uses_.own.value_or(fallback));
-  const auto own = static_cast<MeshUse>(table.choice("as", use_names, usual));
+  const auto own = static_cast<MeshUse>(table.choice("as", geometry::mesh_use_names, usual));
   return uses_.instead.value_or(own);
 }
 

@@ -51,6 +51,8 @@ class PartPairs final : public ConcavePhase {
   // A null test makes `fused`. `answered` is the status of an answer that is there.
   PartPairs(const ConcaveSettings& settings, RoughTest test, Status answered)
       : answered_(answered),
+        test_(test),
+        make_mid_phase_(settings.mid_phase),
         trees_(std::make_shared<MeshTrees>()),
         convex_pairs_(settings.narrow_phase),
         distances_(settings.tolerance) {
@@ -60,10 +62,6 @@ class PartPairs final : public ConcavePhase {
       search_.emplace(trees_);
       hulls_.emplace();
       depths_.emplace();
-      make_mid_phase_ = settings.mid_phase;
-    } else {
-      mid_phase_ = settings.mid_phase();
-      mesh_pairs_ = tested_pairs(mid_phase_, test);
     }
   }
 
@@ -83,6 +81,8 @@ class PartPairs final : public ConcavePhase {
       hulls_->bind(bodies_);
       depths_->bind(bodies_);
     } else {
+      mid_phase_ = make_mid_phase_();  // the one before keeps the bodies of another scene
+      mesh_pairs_ = tested_pairs(mid_phase_, test_);
       fill_mid_phase();
     }
     mesh_pairs_->bind(bodies_);
@@ -224,9 +224,10 @@ class PartPairs final : public ConcavePhase {
   }
 
   Status answered_;
-  std::vector<BoundBody> bodies_;
-  std::shared_ptr<MeshTrees> trees_;  // of `fused`
+  RoughTest test_;  // null: `fused`
   std::function<std::unique_ptr<MidPhase>()> make_mid_phase_;
+  std::vector<BoundBody> bodies_;
+  std::shared_ptr<MeshTrees> trees_;     // of `fused`
   std::shared_ptr<MidPhase> mid_phase_;  // null until it is needed
   std::unique_ptr<MeshPairs> mesh_pairs_;
   std::optional<ConvexSearch> search_;   // of `fused`

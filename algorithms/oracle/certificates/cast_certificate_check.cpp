@@ -86,7 +86,7 @@ class CheckedPair {
     const Track::Placed a = a_.at(time), b = b_.at(time);
     const mpq_class doubt = a.doubt + b.doubt;
     if (a.core.is_halfspace() && b.core.is_halfspace()) {
-      require(gap_along(a.core.normal(), a.core, b.core) <= SignedSquare{},
+      require(distance_of_halfspaces(a.core, b.core) <= SignedSquare{},
               "the half-spaces are apart");
       return;
     }

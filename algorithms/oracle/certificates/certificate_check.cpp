@@ -21,7 +21,7 @@ SignedSquare proven_upper(const Certificate& certificate, const RationalCore& a,
   if (certificate.upper.sign > 0 && certificate.upper.is_infinite()) return {1};
   const Difference difference(a.points(certificate.a), b.points(certificate.b));
   // Two half-spaces are their own proof: no other direction has a gap.
-  if (a.is_halfspace() && b.is_halfspace()) return gap_along(a.normal(), a, b);
+  if (a.is_halfspace() && b.is_halfspace()) return distance_of_halfspaces(a, b);
   require(!certificate.closest.empty() || !certificate.surface.triangles.empty(),
           "nothing is there to prove the upper bound");
   SignedSquare best{1};

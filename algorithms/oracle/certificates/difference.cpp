@@ -13,6 +13,12 @@ SignedSquare gap_along(const RationalVector& n, const RationalCore& a, const Rat
   return quotient(-*reach_a - *reach_b, dot(n, n));
 }
 
+SignedSquare distance_of_halfspaces(const RationalCore& a, const RationalCore& b) {
+  const RationalVector n = a.normal(), other = b.normal();
+  if (!is_zero(cross(n, other)) || dot(n, other) > 0) return {-1};
+  return gap_along(n, a, b);
+}
+
 RationalVector Difference::operator()(const DifferencePoint& point) const {
   require(point.a < a_.size() && point.b < b_.size(), "a point names no generator");
   return a_[point.a] - b_[point.b];

@@ -7,8 +7,13 @@
 
 namespace touchstone::oracle {
 
-// The gap between the cores' shadows along a direction, as a length; minus infinity if a half-space has none.
+// The gap between the cores' shadows along a direction, as a length; minus infinity where no bound on a shadow is
+// known. That proves a lower bound alone: cores without a known bound need not meet.
 SignedSquare gap_along(const RationalVector& n, const RationalCore& a, const RationalCore& b);
+
+// The signed distance of two half-spaces, which is minus infinity unless they face each other. Throws Fault if the
+// matrix of one is singular.
+SignedSquare distance_of_halfspaces(const RationalCore& a, const RationalCore& b);
 
 // Points of the difference, by their generators.
 class Difference {

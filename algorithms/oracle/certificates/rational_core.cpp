@@ -31,6 +31,7 @@ void RationalCore::displace(const RationalVector& by) {
 }
 
 mpq_class RationalCore::reach() const {
+  require(!is_halfspace(), "a half-space turns");
   if (is_polytope()) {
     mpq_class square = 0;
     for (const RationalVector& vertex : vertices()) {
@@ -74,8 +75,7 @@ std::optional<mpq_class> RationalCore::support(const RationalVector& n) const {
 std::vector<RationalVector> RationalCore::points(const std::vector<Generator>& generators) const {
   if (is_halfspace()) {
     require(generators.empty(), "a half-space has no generators");
-    require(!is_zero(normal_), "the matrix of a half-space is singular");
-    return {height_ / dot(normal_, normal_) * normal_};
+    return {height_ / dot(normal(), normal()) * normal()};
   }
   std::vector<RationalVector> all;
   for (const Generator& generator : generators) {

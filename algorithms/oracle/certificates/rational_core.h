@@ -22,7 +22,7 @@ class RationalCore {
   void turn(const std::array<RationalVector, 3>& rotation);
   void displace(const RationalVector& by);
 
-  // An upper bound on the distance of the core's points from the body's origin; not for half-spaces.
+  // An upper bound on the distance of the core's points from the body's origin. Throws Fault for a half-space.
   mpq_class reach() const;
 
   bool is_polytope() const { return solid_.core == Solid::Core::polytope; }
@@ -30,11 +30,15 @@ class RationalCore {
   std::vector<RationalVector> vertices() const;
 
   bool is_halfspace() const { return solid_.core == Solid::Core::halfspace; }
-  // A half-space is normal . x <= height. The normal is outward; it is zero if the matrix is
-  // singular, and then there is no half-space.
-  const RationalVector& normal() const { return normal_; }
+  // A half-space is normal . x <= height, with an outward normal that is not zero. A singular matrix makes no
+  // half-space, and nothing is proven of one: `normal` and `points` throw Fault, and no support is known.
+  const RationalVector& normal() const {
+    require(!is_singular_halfspace(), "the matrix of a half-space is singular");
+    return normal_;
+  }
+  bool is_singular_halfspace() const { return is_halfspace() && is_zero(normal_); }
 
-  // An upper bound on n . x over the core's points x; empty if n . x is unbounded.
+  // An upper bound on n . x over the core's points x; empty if n . x is unbounded, or there is no half-space.
   std::optional<mpq_class> support(const RationalVector& n) const;
 
   // The generators in world coordinates, each checked to lie in the core. For a half-space: one

@@ -86,9 +86,7 @@ class Walk {
   }
 
   // Not the half-space of a singular matrix.
-  static bool has_set(const RationalCore& core) {
-    return !core.is_halfspace() || !is_zero(core.normal());
-  }
+  static bool has_set(const RationalCore& core) { return !core.is_singular_halfspace(); }
 
   // False where the proof has a fault.
   template <class Claim>

@@ -47,7 +47,7 @@ mpq_class BodyAtRays::exact_time(const RaySpan& ray, std::uint32_t part, double 
     if (first) return *first;
   }
   const RationalCore core = parts_.core(part);
-  if (core.is_halfspace() && !is_zero(core.normal())) {
+  if (core.is_halfspace() && !core.is_singular_halfspace()) {
     const mpq_class height = dot(core.normal(), ray.origin) - *core.support(core.normal());
     const mpq_class fall = -dot(core.normal(), ray.direction);
     if (height <= 0) return 0;
@@ -93,12 +93,17 @@ bool BodyAtRays::write_upper(const RaySpan& ray, double t, SceneRayCertificate& 
   return false;
 }
 
-bool BodyAtRays::write_cover(const RaySpan& span, SceneRayCertificate::Cover& cover) {
+bool BodyAtRays::write_cover(const RaySpan& span, const PartUntil* hit,
+                             SceneRayCertificate::Cover& cover) {
   cover = {order_, {}};
-  return parts_.size() == 0 || walk(span, tree_.root(), cover.steps);
+  return parts_.size() == 0 || walk(span, hit, tree_.root(), cover.steps);
 }
 
-bool BodyAtRays::walk(const RaySpan& span, const PartNode& node, Steps& steps) {
+bool BodyAtRays::walk(const RaySpan& span, const PartUntil* hit, const PartNode& node,
+                      Steps& steps) {
+  if (hit != nullptr && node.is_leaf() && tree_.part(node) == hit->part) {
+    return walk(span.until(hit->end), nullptr, node, steps);
+  }
   if (const auto& box = tree_.box(node)) {
     const auto parted =
         plane_off(span, way_of(span, reach_), RoundedGroup(*box, pose_),
@@ -113,7 +118,7 @@ bool BodyAtRays::walk(const RaySpan& span, const PartNode& node, Steps& steps) {
   }
   if (node.is_leaf()) return part_is_free(span, tree_.part(node), steps);
   steps.push_back({StepKind::halve, {}});
-  return walk(span, node.first_half(), steps) && walk(span, node.second_half(), steps);
+  return walk(span, hit, node.first_half(), steps) && walk(span, hit, node.second_half(), steps);
 }
 
 bool BodyAtRays::part_is_free(const RaySpan& span, std::uint32_t part, Steps& steps) {
@@ -128,7 +133,7 @@ bool BodyAtRays::part_is_free(const RaySpan& span, std::uint32_t part, Steps& st
   };
   if (core.is_halfspace()) {
     steps.push_back({StepKind::own_plane, {}});
-    return !is_zero(core.normal()) && is_parted(mpq_class(-1) * core.normal());
+    return !core.is_singular_halfspace() && is_parted(mpq_class(-1) * core.normal());
   }
   const Vec3d from = rounded_vector(span.origin);
   const Vec3d way = way_of(span, reach_);

@@ -26,14 +26,15 @@ class BodyAtRays {
   // Writes a time at which the part of the certificate has the point of the ray, about t, and what shows it; false,
   // and nothing, if none is found.
   bool write_upper(const RaySpan& ray, double t, SceneRayCertificate& certificate);
-  // Whether the parts are free of the span, and how that is shown; the cover is complete only then.
-  bool write_cover(const RaySpan& span, SceneRayCertificate::Cover& cover);
+  // Whether the parts are free of the span, but for the one that is hit, if any, which is until its own time; and how
+  // that is shown. The cover is complete only then.
+  bool write_cover(const RaySpan& span, const PartUntil* hit, SceneRayCertificate::Cover& cover);
 
  private:
   using Steps = std::vector<SceneRayCertificate::Step>;
 
   mpq_class exact_time(const RaySpan& ray, std::uint32_t part, double t) const;
-  bool walk(const RaySpan& span, const PartNode& node, Steps& steps);
+  bool walk(const RaySpan& span, const PartUntil* hit, const PartNode& node, Steps& steps);
   bool part_is_free(const RaySpan& span, std::uint32_t part, Steps& steps);
 
   const ConcaveBody& body_;

@@ -84,41 +84,46 @@ std::optional<SceneRayCertificate> SceneRayProver::prove(const Vec3d& origin,
   certificate.answer = CastAnswer::miss;
   if (std::isfinite(t_max)) span.end = rational(t_max);
   if (span.end && *span.end < 0) return certificate;
-  if (!write_cover(span, certificate)) certificate.answer = CastAnswer::unknown;
+  if (!write_cover(span, nullptr, certificate)) certificate.answer = CastAnswer::unknown;
   return certificate;
 }
 
-void SceneRayProver::write_lower(const RaySpan& ray, double t, bool tries_upper,
+void SceneRayProver::write_lower(const RaySpan& ray, double t, bool has_upper,
                                  SceneRayCertificate& certificate) {
   const mpq_class about = rational(t);
   std::vector<mpq_class> times;
-  if (tries_upper) {
+  if (has_upper) {
     times.push_back(rational(certificate.upper.numerator) /
                     rational(certificate.upper.denominator));
   }
   for (const int bits : bits_of_brackets) {
     times.push_back(about - about / mpq_class(mpz_class(1) << static_cast<mp_bitcnt_t>(bits)));
   }
-  for (const mpq_class& time : times) {
-    RaySpan span = ray;
-    span.end = time;
-    span.is_closed = false;
-    if (time > 0 && !write_cover(span, certificate)) continue;
-    certificate.lower = time_fraction(time);
-    return;
+  // With the others free until the upper bound; or else no order is claimed.
+  for (const bool is_ordered : {true, false}) {
+    certificate.is_ordered = is_ordered || !has_upper;
+    if (is_ordered && !has_upper) continue;
+    for (const mpq_class& time : times) {
+      const RaySpan span = ray.until(is_ordered ? times.front() : time);
+      const PartUntil hit{certificate.body, certificate.part, time};
+      if (*span.end > 0 && !write_cover(span, is_ordered ? &hit : nullptr, certificate)) continue;
+      certificate.lower = time_fraction(time);
+      return;
+    }
   }
 }
 
-bool SceneRayProver::write_cover(const RaySpan& span, SceneRayCertificate& certificate) {
+bool SceneRayProver::write_cover(const RaySpan& span, const PartUntil* hit,
+                                 SceneRayCertificate& certificate) {
   certificate.cover = {order_, {}};
   certificate.of_bodies.clear();
-  if (bodies_.empty() || walk(span, tree_.root(), certificate)) return true;
+  if (bodies_.empty() || walk(span, hit, tree_.root(), certificate)) return true;
   certificate.cover = {};
   certificate.of_bodies.clear();
   return false;
 }
 
-bool SceneRayProver::walk(const RaySpan& span, const PartNode& node,
+bool SceneRayProver::walk(const RaySpan& span, const PartUntil* hit, const PartNode& node,
                           SceneRayCertificate& certificate) {
   std::vector<SceneRayCertificate::Step>& steps = certificate.cover.steps;
   if (const auto& box = tree_.box(node)) {
@@ -135,10 +140,12 @@ bool SceneRayProver::walk(const RaySpan& span, const PartNode& node,
     steps.push_back({StepKind::body, {}});
     // Covers are in the order of the steps, and none is written within another.
     SceneRayCertificate::Cover& cover = certificate.of_bodies.emplace_back();
-    return at(tree_.part(node)).write_cover(span, cover);
+    const std::uint32_t body = tree_.part(node);
+    return at(body).write_cover(span, hit != nullptr && hit->body == body ? hit : nullptr, cover);
   }
   steps.push_back({StepKind::halve, {}});
-  return walk(span, node.first_half(), certificate) && walk(span, node.second_half(), certificate);
+  return walk(span, hit, node.first_half(), certificate) &&
+         walk(span, hit, node.second_half(), certificate);
 }
 
 }  // namespace touchstone::oracle

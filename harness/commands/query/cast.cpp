@@ -5,12 +5,14 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algorithms/registry.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
+#include "harness/commands/query/query_rows.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
@@ -84,12 +86,8 @@ void print_summary(const std::vector<CastAnswers>& all) {
       ++counts[static_cast<std::size_t>(outcome.answer)];
       ++statuses[outcome.status];
     }
-    std::string text;
-    for (const auto& [status, count] : statuses) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), count);
-    }
     fmt::print("{:<28} {:>7} {:>7} {:>7}  {}\n", answers.entry->info.name, counts[0], counts[1],
-               counts[2], text);
+               counts[2], status_counts(statuses));
   }
 }
 
@@ -111,13 +109,27 @@ void save_cast_proofs(const std::vector<files::CastCase>& cases, const CastOptio
   saved.close();
 }
 
-int verify_cast_proofs(const std::string& file) {
-  Verdicts verdicts(file);
-  files::read_cast_certificates(file,
-                                [&](const files::StoredCastCertificate& stored, std::int64_t line) {
-                                  verdicts.add(line, stored.of.id, process::fault_of(stored));
-                                });
-  return verdicts.end();
+int verify_cast_proofs(const CastOptions& options) {
+  AskedCases asked;
+  if (!options.cases.empty()) {
+    for (files::CastCase& c : files::read_cast_cases(options.cases)) {
+      asked.add(to_json(c));
+      // A half-space is the second body in a certificate.
+      std::swap(c.shape_a, c.shape_b);
+      std::swap(c.pose_a, c.pose_b);
+      std::swap(c.motion_a, c.motion_b);
+      asked.add(to_json(c));
+    }
+  }
+  Verdicts verdicts(options.certificates);
+  return verdicts.of([&] {
+    files::read_cast_certificates(
+        options.certificates, [&](const files::StoredCastCertificate& stored, std::int64_t line) {
+          std::string why = asked.fault(to_json(stored.of));
+          if (why.empty()) why = process::fault_of(stored);
+          verdicts.add(line, stored.of.id, why);
+        });
+  });
 }
 
 void cast(const CastOptions& options) {
@@ -147,6 +159,14 @@ void cast(const CastOptions& options) {
   }
   csv.close();
   print_summary(all);
+  CastSettings other = options.settings;
+  other.scalar = other.scalar == Precision::float64 ? Precision::float32 : Precision::float64;
+  std::vector<std::string> of_other;
+  for (const CastEntry* entry : entries) {
+    const bool is_left_out = is_built(entry->info) && !offers(*entry, options.settings);
+    if (is_left_out && offers(*entry, other)) of_other.push_back(entry->info.name);
+  }
+  print_scalar_hint(of_other, options.settings.scalar);
   if (!options.saved.empty()) save_cast_proofs(cases, options);
 }
 
@@ -185,10 +205,11 @@ void add_cast(Arguments command) {
       "--save-certificates", options->saved,
       "Also prove the exact answer of each case, where contact at time 0 counts, and write the "
       "proofs to this file");
-  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
-  command.exclude_others("--certificates");
+  command.text("--certificates", options->certificates,
+               "Only verify the proofs in this file, and with CASES that each is of one of them");
+  command.exclude_others("--certificates", {"CASES"});
   command.job([options]() -> int {
-    if (!options->certificates.empty()) return verify_cast_proofs(options->certificates);
+    if (!options->certificates.empty()) return verify_cast_proofs(*options);
     cast(*options);
     return exit_done;
   });

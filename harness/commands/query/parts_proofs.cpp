@@ -37,15 +37,23 @@ void save_parts_proofs(const std::string& file, ConcaveTask task,
   saved.close();
 }
 
-int verify_parts_proofs(const std::string& file) {
+int verify_parts_proofs(const std::string& file, const std::string& cases) {
+  AskedCases asked;
+  if (!cases.empty()) {
+    for (const files::ConcaveCase& c : files::read_concave_cases(cases)) asked.add(to_json(c));
+  }
   Verdicts verdicts(file);
-  files::read_parts_certificates(
-      file, [&](const files::StoredPartsCertificate& stored, std::int64_t line) {
-        const files::ConcaveCase& of = stored.of;
-        verdicts.add(line, of.id,
-                     oracle::fault(stored.certificate, {of.a, of.pose_a}, {of.b, of.pose_b}));
-      });
-  return verdicts.end();
+  return verdicts.of([&] {
+    files::read_parts_certificates(
+        file, [&](const files::StoredPartsCertificate& stored, std::int64_t line) {
+          const files::ConcaveCase& of = stored.of;
+          std::string why = asked.fault(to_json(of));
+          if (why.empty()) {
+            why = oracle::fault(stored.certificate, {of.a, of.pose_a}, {of.b, of.pose_b});
+          }
+          verdicts.add(line, of.id, why);
+        });
+  });
 }
 
 }  // namespace touchstone::commands

@@ -14,7 +14,8 @@ namespace touchstone::commands {
 void save_parts_proofs(const std::string& file, ConcaveTask task,
                        const std::vector<files::ConcaveCase>& cases, double seconds);
 
-// Returns the program's exit status; prints what is refused and why.
-int verify_parts_proofs(const std::string& file);
+// Returns the program's exit status; prints what is refused and why. If there is a file of cases, each certificate has
+// to be of one of them.
+int verify_parts_proofs(const std::string& file, const std::string& cases);
 
 }  // namespace touchstone::commands

@@ -17,6 +17,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
+#include "harness/commands/query/query_rows.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
@@ -99,11 +100,8 @@ void print_points_summary(const std::vector<PointAnswers>& all) {
   for (const PointAnswers& answers : all) {
     std::map<Status, std::size_t> statuses;
     for (const PointAnswer& answer : answers.of) ++statuses[answer.status];
-    std::string text;
-    for (const auto& [status, count] : statuses) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), count);
-    }
-    fmt::print("{:<24} {:>9}  {}\n", answers.entry->info.name, answers.of.size(), text);
+    fmt::print("{:<24} {:>9}  {}\n", answers.entry->info.name, answers.of.size(),
+               status_counts(statuses));
   }
 }
 
@@ -137,15 +135,27 @@ void save_point_proofs(const TriangleMesh& mesh, const std::vector<Vec3d>& point
   saved.close();
 }
 
-int verify_point_proofs(const std::string& file) {
-  Verdicts verdicts(file);
+int verify_point_proofs(const PointsOptions& options) {
+  const std::vector<Vec3d> points =
+      options.points.empty() ? std::vector<Vec3d>{} : read_points(options.points);
+  Verdicts verdicts(options.certificates);
+  QuestionNumbers numbers;
   std::optional<oracle::CheckedMesh> mesh;
-  files::read_point_certificates(
-      file, [&](const TriangleMesh& read) { mesh.emplace(read); },
-      [&](const files::StoredPointCertificate& stored, std::int64_t line) {
-        verdicts.add(line, fmt::format("point {}", stored.point), mesh->fault(stored.certificate));
-      });
-  return verdicts.end();
+  const auto take_mesh = [&](const TriangleMesh& read) {
+    numbers.begin();
+    mesh.emplace(read);
+  };
+  const auto take = [&](const files::StoredPointCertificate& stored, std::int64_t line) {
+    std::string why = numbers.fault(stored.point);
+    if (why.empty() && !options.points.empty() &&
+        (stored.point >= points.size() || stored.certificate.point != points[stored.point])) {
+      why = "--points has another point of that number, or none";
+    }
+    if (why.empty()) why = mesh->fault(stored.certificate);
+    verdicts.add(line, fmt::format("point {}", stored.point), why);
+  };
+  return verdicts.of(
+      [&] { files::read_point_certificates(options.certificates, take_mesh, take); });
 }
 
 void ask_points(const PointsOptions& options) {
@@ -155,6 +165,7 @@ void ask_points(const PointsOptions& options) {
   const auto entries = kinds::select(registry::entries<PointQueryEntry>(),
                                      kinds::split_names(options.query), "point query");
   geometry::Mesh read = geometry::read_surface(options.mesh);
+  tell_extent(options.mesh, read.vertices);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   if (options.task == PointTask::side) check_closed(options.mesh, mesh);
   const std::vector<Vec3d> points = read_points(options.points);
@@ -193,10 +204,13 @@ void add_points(Arguments command) {
   command.text("--out", options->out, "The CSV file to write (required)");
   command.text("--save-certificates", options->saved,
                "Also prove the exact answer for each point, and write the proofs to this file");
-  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
-  command.exclude_others("--certificates");
+  command.text(
+      "--certificates", options->certificates,
+      "Only verify the proofs in this file, and with --points that each is of the point of "
+      "its number");
+  command.exclude_others("--certificates", {"--points"});
   command.job([options]() -> int {
-    if (!options->certificates.empty()) return verify_point_proofs(options->certificates);
+    if (!options->certificates.empty()) return verify_point_proofs(*options);
     ask_points(*options);
     return exit_done;
   });

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "harness/base/error.h"
+#include "harness/base/input_file.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 
@@ -18,7 +19,15 @@ constexpr int most_told = 1000;
 
 SavedCertificates::SavedCertificates(const std::string& file) : output_(file) {}
 
-void SavedCertificates::head(const std::string& line) { output_.write(line + "\n"); }
+void SavedCertificates::head(const std::string& line) {
+  if (line.size() >= base::longest_text) {
+    throw base::InputError(
+        output_.path().string(), 0,
+        fmt::format("cannot hold what is asked, in a line of {} bytes; expected at most {}",
+                    line.size(), base::longest_text));
+  }
+  output_.write(line + "\n");
+}
 
 void SavedCertificates::add_each(std::size_t items, double seconds,
                                  const std::function<process::MakeLine()>& setup,
@@ -46,9 +55,36 @@ void Verdicts::add(std::int64_t line, const std::string& name, const std::string
   fmt::print(stderr, "{}:{}: {}: {}\n", file_, line, name, why);
 }
 
-int Verdicts::end() const {
-  fmt::print("{} certificates verified, {} refused\n", verified_, refused_);
+void Verdicts::print(const std::string& until) const {
+  fmt::print("{} certificates verified, {} refused{}\n", verified_, refused_, until);
+  if (without_order_ > 0) {
+    fmt::print(
+        "{} of them claim a hit without order: another part may be hit before it, in the "
+        "bracket\n",
+        without_order_);
+  }
+}
+
+int Verdicts::of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const base::InputError&) {
+    print(", before what cannot be read");
+    throw;
+  }
+  print("");
   return refused_ == 0 ? exit_done : exit_measured_wrong;
+}
+
+std::string QuestionNumbers::fault(std::uint64_t number) {
+  const bool is_next = !last_ || number > *last_;
+  if (is_next) last_ = number;
+  return is_next ? "" : "its number is not above that of the certificate before it";
+}
+
+std::string AskedCases::fault(const std::string& case_line) const {
+  return lines_.empty() || lines_.contains(case_line) ? ""
+                                                      : "CASES has no such case of that identifier";
 }
 
 void expect_without_certificates(const std::string& value, const char* name) {

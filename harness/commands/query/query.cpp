@@ -21,6 +21,7 @@
 #include "harness/files/concave/concave_cases.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/geometry/shapes/compound.h"
 #include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 #include "harness/process/queries/solve_case.h"
@@ -93,7 +94,11 @@ Answers ask(const NarrowPhaseEntry& entry, const std::vector<files::Case>& cases
 
 // Returns the cases of the file, or those with the identifier that was asked for.
 std::vector<files::ConcaveCase> asked_cases(const QueryOptions& options) {
-  std::vector<files::ConcaveCase> cases = files::read_concave_cases(options.cases);
+  files::MeshFiles meshes;
+  std::vector<files::ConcaveCase> cases = files::read_concave_cases(options.cases, &meshes);
+  for (const auto& [file, body] : meshes.all()) {
+    tell_extent(file, body->mesh ? body->mesh->vertices : geometry::surface_of(*body).vertices);
+  }
   if (options.id.empty()) return cases;
   std::erase_if(cases, [&](const files::ConcaveCase& c) { return c.id != options.id; });
   if (cases.empty()) {
@@ -288,10 +293,13 @@ void add_query(Arguments command) {
   command.text("--save-certificates", options->saved,
                "With --task intersect, distance or contacts: also prove the exact answer of each "
                "case, and write the proofs to this file");
-  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
-  command.exclude_others("--certificates");
+  command.text("--certificates", options->certificates,
+               "Only verify the proofs in this file, and with CASES that each is of one of them");
+  command.exclude_others("--certificates", {"CASES"});
   command.job([options, heeded = HeededBySome{margin, duality_gap, mid, parts}]() -> int {
-    if (!options->certificates.empty()) return verify_parts_proofs(options->certificates);
+    if (!options->certificates.empty()) {
+      return verify_parts_proofs(options->certificates, options->cases);
+    }
     query(*options, heeded);
     return exit_done;
   });

@@ -111,34 +111,47 @@ class ConcaveQueryRun {
     return answer;
   }
 
-  // Solves the cases with pairs again, now that it is known how many there are.
+  // Solves the cases with pairs again, in one child process, now that it is known how many there are.
   void fetch_pairs(ConcaveAnswers& all) const {
+    std::vector<std::size_t> taken, first = {0};
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       const std::size_t count = all.answers[i].pair_count;
       if (count == 0) continue;
-      process::SharedArray<IndexPair> fetched(count);
-      const bool measured =
-          !query_.contacts.empty() && all.entry->measures && (!query_.welds || all.entry->welds);
-      process::SharedArray<PartContact> fetched_contacts(measured ? count : 1);
-      const process::IsolationLimits limits = {.item_seconds = query_.time_limit};
-      const auto report = process::isolate(1, limits, [&]() -> process::ItemWork {
-        return [&](std::size_t) {
-          std::vector<IndexPair> pairs;
-          std::vector<PartContact> contacts;
-          solve(*all.entry, cases_[i], pairs, measured ? &contacts : nullptr);
-          std::copy_n(pairs.begin(), std::min(count, pairs.size()), fetched.span().begin());
-          std::copy_n(contacts.begin(), std::min(count, contacts.size()),
-                      fetched_contacts.span().begin());
-        };
-      });
-      print_failures(all.entry->info.name, report.failures,
-                     [&](std::size_t) { return fmt::format("pairs of case '{}'", cases_[i].id); });
-      if (!report.failures.empty()) continue;
-      all.pairs[i].assign(fetched.span().begin(), fetched.span().end());
-      std::ranges::sort(all.pairs[i]);
-      if (measured) {
-        all.contacts[i].assign(fetched_contacts.span().begin(), fetched_contacts.span().end());
-      }
+      taken.push_back(i);
+      first.push_back(first.back() + count);
+    }
+    if (taken.empty()) return;
+    const bool measured =
+        !query_.contacts.empty() && all.entry->measures && (!query_.welds || all.entry->welds);
+    process::SharedArray<IndexPair> fetched(first.back());
+    process::SharedArray<PartContact> fetched_contacts(measured ? first.back() : 1);
+    const auto of_item = [&](auto& items, std::size_t item) {
+      return items.span().subspan(first[item], first[item + 1] - first[item]);
+    };
+    const auto fill = [](const auto& from, const auto& to) {
+      std::copy_n(from.begin(), std::min(from.size(), to.size()), to.begin());
+    };
+    const process::IsolationLimits limits = {.item_seconds = query_.time_limit};
+    const auto report = process::isolate(taken.size(), limits, [&]() -> process::ItemWork {
+      return [&](std::size_t item) {
+        std::vector<IndexPair> pairs;
+        std::vector<PartContact> contacts;
+        solve(*all.entry, cases_[taken[item]], pairs, measured ? &contacts : nullptr);
+        fill(pairs, of_item(fetched, item));
+        if (measured) fill(contacts, of_item(fetched_contacts, item));
+      };
+    });
+    print_failures(all.entry->info.name, report.failures, [&](std::size_t item) {
+      return fmt::format("pairs of case '{}'", cases_[taken[item]].id);
+    });
+    for (std::size_t item = 0; item < taken.size(); ++item) {
+      if (report.states[item] != process::ItemState::done) continue;
+      const auto pairs = of_item(fetched, item);
+      all.pairs[taken[item]].assign(pairs.begin(), pairs.end());
+      std::ranges::sort(all.pairs[taken[item]]);
+      if (!measured) continue;
+      const auto contacts = of_item(fetched_contacts, item);
+      all.contacts[taken[item]].assign(contacts.begin(), contacts.end());
     }
   }
 

@@ -16,6 +16,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/query/proofs.h"
+#include "harness/commands/query/query_rows.h"
 #include "harness/commands/query/rays_files.h"
 #include "harness/commands/query/rays_of_scenes.h"
 #include "harness/commands/shared_options.h"
@@ -91,36 +92,65 @@ void save_ray_proofs(TriangleMesh mesh, const std::vector<Ray>& rays, const Rays
   saved.close();
 }
 
-int verify_ray_proofs(const std::string& file) {
-  Verdicts verdicts(file);
-  const auto name = [](const auto& stored) { return fmt::format("ray {}", stored.ray); };
+// True if the certificate is of the ray, or of that which is nearest to it in float.
+template <class Certificate>
+bool is_of(const Certificate& certificate, const Ray& ray) {
+  const auto is_equal = [&](const Vec3d& origin, const Vec3d& direction, double t_max) {
+    return certificate.origin == origin && certificate.direction == direction &&
+           certificate.t_max == t_max;
+  };
+  return is_equal(ray.origin, ray.direction, ray.t_max) ||
+         is_equal(nearest_float(ray.origin), nearest_float(ray.direction),
+                  nearest_float(ray.t_max));
+}
+
+int verify_ray_proofs(const RaysOptions& options) {
+  const std::vector<Ray> rays = options.rays.empty() ? std::vector<Ray>{} : read_rays(options.rays);
+  Verdicts verdicts(options.certificates);
+  QuestionNumbers numbers;
+  const auto add = [&](const auto& stored, std::int64_t line, auto& target) {
+    std::string why = numbers.fault(stored.ray);
+    if (why.empty() && !options.rays.empty() &&
+        (stored.ray >= rays.size() || !is_of(stored.certificate, rays[stored.ray]))) {
+      why = "--rays has another ray of that number, or none";
+    }
+    if (why.empty()) why = target->fault(stored.certificate);
+    verdicts.add(line, name_of_ray(stored.ray), why);
+    return why.empty();
+  };
   std::optional<oracle::CheckedMesh> mesh;
   std::vector<files::PlacedConcave> bodies;
   std::optional<oracle::CheckedScene> scene;
-  files::read_ray_certificates(
-      file, {.mesh = [&](const TriangleMesh& read) { mesh.emplace(read); },
-             .at_mesh =
-                 [&](const files::StoredRayCertificate& stored, std::int64_t line) {
-                   verdicts.add(line, name(stored), mesh->fault(stored.certificate));
-                 },
-             .scene =
-                 [&](std::vector<files::PlacedConcave> read) {
-                   bodies = std::move(read);
-                   std::vector<oracle::PlacedBody> placed;
-                   for (const auto& [body, pose] : bodies) placed.push_back({body, pose});
-                   scene.emplace(std::move(placed));
-                 },
-             .at_scene =
-                 [&](const files::StoredSceneRayCertificate& stored, std::int64_t line) {
-                   verdicts.add(line, name(stored), scene->fault(stored.certificate));
-                 }});
-  return verdicts.end();
+  const files::RayTargets targets = {
+      .mesh =
+          [&](const TriangleMesh& read) {
+            numbers.begin();
+            mesh.emplace(read);
+          },
+      .at_mesh = [&](const files::StoredRayCertificate& stored,
+                     std::int64_t line) { add(stored, line, mesh); },
+      .scene =
+          [&](std::vector<files::PlacedConcave> read) {
+            numbers.begin();
+            bodies = std::move(read);
+            std::vector<oracle::PlacedBody> placed;
+            for (const auto& [body, pose] : bodies) placed.push_back({body, pose});
+            scene.emplace(std::move(placed));
+          },
+      .at_scene =
+          [&](const files::StoredSceneRayCertificate& stored, std::int64_t line) {
+            if (add(stored, line, scene) && !stored.certificate.is_ordered) {
+              verdicts.add_without_order();
+            }
+          }};
+  return verdicts.of([&] { files::read_ray_certificates(options.certificates, targets); });
 }
 
 void cast_rays(const RaysOptions& options) {
   const auto entries = kinds::select(registry::entries<RayCastEntry>(),
                                      kinds::split_names(options.cast), "ray cast");
   geometry::Mesh read = geometry::read_surface(options.target);
+  tell_extent(options.target, read.vertices);
   const TriangleMesh mesh{std::move(read.vertices), std::move(read.triangles)};
   const std::vector<Ray> rays = read_rays(options.rays);
   files::check_outputs({{"FILE", options.target}, {"--rays", options.rays}},
@@ -141,6 +171,13 @@ void cast_rays(const RaysOptions& options) {
     for (const RayHit& hit : cast.hits) summary.add(hit.hit, hit.status);
   }
   print_summaries(summaries);
+  std::vector<std::string> of_other;
+  for (const RayCastEntry* entry : entries) {
+    if (is_built(entry->info) && !offers(*entry, options.settings.scalar)) {
+      of_other.push_back(entry->info.name);
+    }
+  }
+  print_scalar_hint(of_other, options.settings.scalar);
   if (!options.saved.empty()) save_ray_proofs(mesh, rays, options);
 }
 
@@ -178,10 +215,13 @@ void add_rays(Arguments command) {
   command.text("--out", options->out, "The CSV file to write (required)");
   command.text("--save-certificates", options->saved,
                "Also prove the exact answer for each ray, and write the proofs to this file");
-  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
-  command.exclude_others("--certificates");
+  command.text(
+      "--certificates", options->certificates,
+      "Only verify the proofs in this file, and with --rays that each is of the ray of its "
+      "number");
+  command.exclude_others("--certificates", {"--rays"});
   command.job([options]() -> int {
-    if (!options->certificates.empty()) return verify_ray_proofs(options->certificates);
+    if (!options->certificates.empty()) return verify_ray_proofs(*options);
     cast_rays_at_target(*options);
     return exit_done;
   });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "harness/base/file_text.h"
+#include "harness/commands/query/query_rows.h"
 #include "harness/files/csv.h"
 
 namespace touchstone::commands {
@@ -40,11 +41,8 @@ std::string name_of_ray(std::size_t ray) { return fmt::format("ray {}", ray); }
 void print_summaries(const std::vector<RaysSummary>& summaries) {
   fmt::print("{:<24} {:>9} {:>9}  {}\n", "algorithm", "hits", "misses", "status");
   for (const RaysSummary& summary : summaries) {
-    std::string text;
-    for (const auto& [status, count] : summary.statuses) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), count);
-    }
-    fmt::print("{:<24} {:>9} {:>9}  {}\n", summary.name, summary.hits, summary.misses, text);
+    fmt::print("{:<24} {:>9} {:>9}  {}\n", summary.name, summary.hits, summary.misses,
+               status_counts(summary.statuses));
   }
 }
 

@@ -2,34 +2,41 @@
 #include "harness/files/concave/concave_cases.h"
 
 #include "harness/files/concave/concave_json.h"
+#include "harness/files/key_warnings.h"
 
 namespace touchstone::files {
 namespace {
 
-bool names_convex(const JsonNode& body) {
-  const std::string& type =
-      body.at("shape", "").at("type", "a shape's name").text("a shape's name");
+bool names_convex(const JsonNode& body, const ConcaveBody& read) {
+  const JsonNode shape = body.at("shape", "");
+  if (is_mesh_file(shape)) return !read.mesh && read.parts.size() == 1;
+  const std::string& type = shape.at("type", "a shape's name").text("a shape's name");
   return type != "mesh" && type != "compound";
 }
 
 }  // namespace
 
-ConcaveCase read_concave_case(const JsonNode& line) {
+ConcaveCase read_concave_case(const JsonNode& line, MeshFiles* files) {
   line.as_object("a case: an object with \"id\", \"a\" and \"b\"");
   ConcaveCase c;
   c.line = line.line();
   c.id = line.at("id", "a string").text("a string");
   const JsonNode a = line.at("a", "the first body"), b = line.at("b", "the second body");
-  c.a = read_concave_body(a, c.pose_a);
-  c.b = read_concave_body(b, c.pose_b);
-  c.is_convex = names_convex(a) && names_convex(b);
+  c.a = read_concave_body(a, c.pose_a, files);
+  c.b = read_concave_body(b, c.pose_b, files);
+  c.is_convex = names_convex(a, c.a) && names_convex(b, c.b);
   return c;
 }
 
-std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file) {
+std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file, MeshFiles* meshes) {
   std::vector<ConcaveCase> cases;
-  for_each_json_line(file, "case",
-                     [&](const JsonNode& line) { cases.push_back(read_concave_case(line)); });
+  MeshFiles own;
+  MeshFiles* const files = meshes != nullptr ? meshes : &own;
+  KeyWarnings warnings;
+  for_each_json_line(file, "case", [&](const JsonNode& line) {
+    cases.push_back(read_concave_case(line, files));
+    warnings.look(line);
+  });
   return cases;
 }
 

@@ -31,16 +31,6 @@ std::array<std::uint32_t, 3> read_triangle(const JsonNode& node, std::size_t ver
   return corners;
 }
 
-void check_closed(const JsonNode& node, const TriangleMesh& mesh) {
-  const auto edge = geometry::open_edge(mesh.vertices, mesh.triangles);
-  if (!edge) return;
-  const auto& [from, to] = *edge;
-  node.fail(fmt::format(
-      "\"solid\" is true, and the surface is open at the edge from [{},{},{}] to [{},{},{}]; "
-      "expected each edge as often in one direction as in the other",
-      from[0], from[1], from[2], to[0], to[1], to[2]));
-}
-
 bool has_type(const JsonNode& shape, const char* type) {
   shape.as_object("an object, such as {\"type\":\"sphere\",\"radius\":1}");
   return shape.at("type", "a shape's name").text("a shape's name") == type;
@@ -48,9 +38,21 @@ bool has_type(const JsonNode& shape, const char* type) {
 
 constexpr std::size_t most_nested = 1000;
 
+// Adds the body of a file as a part of a compound.
+void add_file(const ConcaveBody& read, const Pose& pose, std::vector<Pose>& around,
+              ConcaveBody& body) {
+  if (read.mesh) return geometry::add_surface(read.mesh, pose, around, body);
+  around.push_back(pose);
+  for (const ConvexPart& part : read.parts) {
+    geometry::place_within(around, body.parts.emplace_back(part));
+  }
+  around.pop_back();
+}
+
 // Adds the parts of a compound that lies within others: `around` has their poses, the outermost
 // first.
-void add_parts(const JsonNode& compound, std::vector<Pose>& around, ConcaveBody& body) {
+void add_parts(const JsonNode& compound, std::vector<Pose>& around, MeshFiles* files,
+               ConcaveBody& body) {
   const JsonNode list = compound.at("parts", "an array of parts");
   list.as_array("an array of parts, each with a shape and its place");
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -58,6 +60,10 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around, ConcaveBody&
     node.as_object("a part: an object with a shape and its place");
     const JsonNode shape =
         node.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
+    if (files != nullptr && is_mesh_file(shape)) {
+      add_file(files->body(shape), read_pose(node), around, body);
+      continue;
+    }
     if (has_type(shape, "mesh")) {
       geometry::add_surface(read_mesh(shape), read_pose(node), around, body);
       continue;
@@ -68,7 +74,7 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around, ConcaveBody&
             "compounds are more than {} deep within each other; expected fewer", most_nested));
       }
       around.push_back(read_pose(node));
-      add_parts(shape, around, body);
+      add_parts(shape, around, files, body);
       around.pop_back();
       continue;
     }
@@ -102,6 +108,16 @@ OrderedJson part_to_json(const ConvexPart& part, const TriangleMesh* mesh) {
 
 }  // namespace
 
+void check_closed(const JsonNode& node, const TriangleMesh& mesh, std::string_view said) {
+  const auto edge = geometry::open_edge(mesh.vertices, mesh.triangles);
+  if (!edge) return;
+  const auto& [from, to] = *edge;
+  node.fail(
+      fmt::format("{}, and the surface is open at the edge from [{},{},{}] to [{},{},{}]; "
+                  "expected each edge as often in one direction as in the other",
+                  said, from[0], from[1], from[2], to[0], to[1], to[2]));
+}
+
 std::shared_ptr<const TriangleMesh> read_mesh(const JsonNode& node) {
   TriangleMesh mesh;
   const JsonNode vertices = node.at("vertices", "an array of vertices [x,y,z]");
@@ -119,7 +135,7 @@ std::shared_ptr<const TriangleMesh> read_mesh(const JsonNode& node) {
     }
     mesh.solid = solid.value().get<bool>();
   }
-  if (mesh.solid) check_closed(node, mesh);
+  if (mesh.solid) check_closed(node, mesh, "\"solid\" is true");
   return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 
@@ -136,16 +152,19 @@ OrderedJson mesh_to_json(const TriangleMesh& mesh) {
   return shape;
 }
 
-ConcaveBody read_concave_body(const JsonNode& body, Pose& pose) {
+ConcaveBody read_concave_body(const JsonNode& body, Pose& pose, MeshFiles* files) {
   body.as_object("an object with a shape and its pose");
   const JsonNode node = body.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
   ConcaveBody read;
-  if (has_type(node, "mesh")) {
+  if (files != nullptr && is_mesh_file(node)) {
+    read = files->body(node);
+    pose = read_pose(body);
+  } else if (has_type(node, "mesh")) {
     read.mesh = read_mesh(node);
     pose = read_pose(body);
   } else if (has_type(node, "compound")) {
     std::vector<Pose> around;
-    add_parts(node, around, read);
+    add_parts(node, around, files, read);
     pose = read_pose(body);
   } else {
     read_body(body, read.parts.emplace_back().shape, pose, ", mesh, compound");

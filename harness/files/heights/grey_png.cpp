@@ -11,6 +11,7 @@
 #include <string>
 
 #include "harness/base/error.h"
+#include "harness/base/input_file.h"
 
 namespace touchstone::files {
 namespace {
@@ -70,6 +71,7 @@ GreyImage read_grey_png(const std::filesystem::path& file, std::size_t most) {
   const auto fail = [&](const std::string& message) {
     throw base::InputError(file.string(), 0, message);
   };
+  base::check_kind(file, "a PNG image");
   const std::unique_ptr<std::FILE, Closed> input(std::fopen(file.c_str(), "rb"));
   if (!input) fail("cannot be read; expected a PNG image");
   Reading reading;

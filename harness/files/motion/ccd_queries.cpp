@@ -4,17 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "algorithms/oracle/numbers/ratio.h"
 #include "harness/base/error.h"
 #include "harness/base/file_text.h"
+#include "harness/base/input_file.h"
 #include "harness/files/line_reader.h"
 
 namespace touchstone::files {
@@ -114,6 +116,10 @@ class CcdReader {
     if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
       fail(fmt::format("found '{}'; expected an integer", base::shortened(text)));
     }
+    if (digits.size() > base::most_digits) {
+      fail(fmt::format("an integer of {} digits; expected at most {}", digits.size(),
+                       base::most_digits));
+    }
     if (begin == digits.size()) return 0;
     const Integer magnitude{std::string(digits.substr(begin))};
     return text.starts_with('-') ? Integer(-magnitude) : magnitude;
@@ -139,32 +145,76 @@ class CcdReader {
   std::size_t rounded_ = 0;
 };
 
+// A file of the larger public set is SCENE/queries/NAME.csv, and its truths are beside that folder.
+std::filesystem::path truths_of(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).lexically_normal().parent_path().parent_path() /
+         "mma_bool" / (file.stem().string() + "_mma_bool.json");
+}
+
+std::vector<char> read_truths(const std::filesystem::path& file, std::size_t queries) {
+  const std::string text = base::read_whole(file, base::longest_text, "the truths of queries");
+  const auto list = nlohmann::json::parse(text, nullptr, false);
+  const bool is_list = list.is_array() && std::ranges::all_of(list, [](const auto& truth) {
+                         return truth.is_boolean();
+                       });
+  if (!is_list || list.size() != queries) {
+    throw base::InputError(
+        file.string(), 0,
+        fmt::format("{}; expected an array of true or false for each of {} queries",
+                    is_list ? fmt::format("{} truths", list.size()) : "no list of truths",
+                    queries));
+  }
+  std::vector<char> contacts;
+  contacts.reserve(queries);
+  for (const auto& truth : list) contacts.push_back(truth.get<bool>() ? 1 : 0);
+  return contacts;
+}
+
+// The kind of the features in a file, by its folder, or in the larger set by its name.
+std::optional<FeaturePair> kind_of(const std::filesystem::path& file) {
+  const std::string folder = file.parent_path().filename().string(), name = file.stem().string();
+  const bool is_split = folder == "queries";
+  if (folder == "vertex-face" || (is_split && name.ends_with("vf"))) {
+    return FeaturePair::vertex_face;
+  }
+  if (folder == "edge-edge" || (is_split && name.ends_with("ee"))) return FeaturePair::edge_edge;
+  return {};
+}
+
 }  // namespace
 
-CcdQueries read_ccd_queries(const std::filesystem::path& file) { return CcdReader(file).read(); }
+CcdQueries read_ccd_queries(const std::filesystem::path& file) {
+  CcdQueries all = CcdReader(file).read();
+  const std::filesystem::path truths = truths_of(file);
+  std::error_code error;
+  if (all.contacts.empty() && std::filesystem::exists(truths, error)) {
+    all.contacts = read_truths(truths, all.queries.size());
+  }
+  return all;
+}
 
 std::vector<CcdFile> ccd_files(const std::filesystem::path& folder) {
-  constexpr std::array<std::pair<std::string_view, FeaturePair>, 2> kinds = {
-      {{"edge-edge", FeaturePair::edge_edge}, {"vertex-face", FeaturePair::vertex_face}}};
   std::vector<CcdFile> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
     const std::filesystem::path& path = entry.path();
     if (path.extension() != ".csv" || !entry.is_regular_file()) continue;
-    const std::filesystem::path kind = path.parent_path();
-    for (const auto& [name, pair] : kinds) {
-      if (kind.filename() != name) continue;
-      const std::filesystem::path scene =
-          std::filesystem::absolute(kind).lexically_normal().parent_path();
-      files.push_back({path, scene.filename().string(), pair});
-    }
+    const std::optional<FeaturePair> pair = kind_of(path);
+    if (!pair) continue;
+    const std::filesystem::path scene =
+        std::filesystem::absolute(path).lexically_normal().parent_path().parent_path();
+    files.push_back({path, scene.filename().string(), *pair});
   }
   if (error || files.empty()) {
     throw base::InputError(
         folder.string(), 0,
-        "no queries; expected files SCENE/vertex-face/NAME.csv or SCENE/edge-edge/NAME.csv");
+        "no queries; expected files SCENE/vertex-face/NAME.csv or SCENE/edge-edge/NAME.csv, or "
+        "SCENE/queries/NAMEvf.csv or SCENE/queries/NAMEee.csv");
   }
-  std::ranges::sort(files, {}, [](const CcdFile& file) { return file.file; });
+  std::ranges::sort(files, {}, [](const CcdFile& file) {
+    return std::tuple(file.file.parent_path().parent_path(), file.pair != FeaturePair::edge_edge,
+                      file.file);
+  });
   return files;
 }
 

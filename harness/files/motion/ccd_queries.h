@@ -21,11 +21,12 @@ struct CcdQueries {
 // and may end with the truth: 1 for contact, 0 for none. All rows have the same number of columns:
 // 3, 4, 6 or 7. A fraction becomes the double that is nearest to it. The format and data: Wang et al.,
 // "A Large-Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection", ACM
-// TOG 40(5), 2021. Throws InputError with file and line.
+// TOG 40(5), 2021. Where the rows have no truth, and a file ../mma_bool/STEM_mma_bool.json is there, as in the larger
+// set, it has them: an array of true or false, one for each query. Throws InputError with file and line.
 CcdQueries read_ccd_queries(const std::filesystem::path& file);
 
-// A file of queries in a folder of the public data: SCENE/vertex-face/NAME.csv or
-// SCENE/edge-edge/NAME.csv.
+// A file of queries in a folder of the public data: SCENE/vertex-face/NAME.csv or SCENE/edge-edge/NAME.csv, and of the
+// larger set SCENE/queries/NAMEvf.csv or SCENE/queries/NAMEee.csv.
 struct CcdFile {
   std::filesystem::path file;
   std::string scene;

@@ -17,13 +17,6 @@ namespace {
 using oracle::PointCertificate;
 using oracle::RayCertificate;
 
-bool read_boolean(const JsonNode& node) {
-  if (!node.value().is_boolean()) {
-    node.fail(fmt::format("found {}; expected true or false", node.found()));
-  }
-  return node.value().get<bool>();
-}
-
 std::int32_t read_winding(const JsonNode& node) {
   const Json& value = node.value();
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();

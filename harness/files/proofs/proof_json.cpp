@@ -8,6 +8,8 @@
 #include <limits>
 #include <string_view>
 
+#include "harness/base/input_file.h"
+
 namespace touchstone::files {
 
 using oracle::Certificate;
@@ -55,6 +57,13 @@ std::string to_hexadecimal(long double x) {
 
 }  // namespace
 
+bool read_boolean(const JsonNode& node) {
+  if (!node.value().is_boolean()) {
+    node.fail(fmt::format("found {}; expected true or false", node.found()));
+  }
+  return node.value().get<bool>();
+}
+
 std::uint32_t read_index(const JsonNode& node) {
   const Json& value = node.value();
   if (!value.is_number_unsigned() ||
@@ -72,6 +81,10 @@ Integer read_integer(const JsonNode& node) {
   if (digits.empty() || zero_first ||
       digits.find_first_not_of("0123456789") != std::string_view::npos) {
     node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+  }
+  if (digits.size() > base::most_digits) {
+    node.fail(fmt::format("found an integer of {} digits; expected at most {}", digits.size(),
+                          base::most_digits));
   }
   return Integer(text);
 }

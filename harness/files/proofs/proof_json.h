@@ -10,7 +10,9 @@
 namespace touchstone::files {
 
 // All throw InputError with the place of what is malformed.
+bool read_boolean(const JsonNode& node);
 std::uint32_t read_index(const JsonNode& node);
+// An integer of at most base::most_digits digits.
 oracle::Integer read_integer(const JsonNode& node);
 oracle::TimeFraction read_fraction(const JsonNode& node);
 CastAnswer read_cast_answer(const JsonNode& node);

@@ -60,6 +60,7 @@ StoredSceneRayCertificate read_scene_ray(const JsonNode& line) {
   StoredSceneRayCertificate stored{fields.ray, {}};
   SceneRayCertificate& certificate = stored.certificate;
   certificate.is_first = fields.is_first;
+  certificate.is_ordered = read_boolean(line.at("ordered", "true or false"));
   certificate.origin = fields.origin;
   certificate.direction = fields.direction;
   certificate.t_max = fields.t_max;
@@ -97,6 +98,7 @@ std::string to_json(const StoredSceneRayCertificate& stored) {
   const SceneRayCertificate& certificate = stored.certificate;
   OrderedJson out = ray_fields_to_json({stored.ray, certificate.is_first, certificate.origin,
                                         certificate.direction, certificate.t_max});
+  out["ordered"] = certificate.is_ordered;
   out["answer"] = to_string(certificate.answer);
   out["lower"] = fraction_to_json(certificate.lower);
   out["upper"] = fraction_to_json(certificate.upper);

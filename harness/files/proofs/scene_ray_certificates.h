@@ -1,11 +1,12 @@
 // Certificates of rays at scenes as JSON. The bodies, as in cases (concave_json.h), come before the rays at them:
 //   {"bodies":[BODY, ...]}
-//   {"ray":0, "task":"closest", "origin":[x,y,z], "direction":[x,y,z], "t_max":"inf", "answer":"hit",
-//    "lower":["1","3"], "upper":["1","2"], "body":1, "part":5, "generators":[0, ...],
+//   {"ray":0, "task":"closest", "origin":[x,y,z], "direction":[x,y,z], "t_max":"inf", "ordered":true,
+//    "answer":"hit", "lower":["1","3"], "upper":["1","2"], "body":1, "part":5, "generators":[0, ...],
 //    "surface":{"points":[[0,0], ...], "triangles":[[0,1,2], ...]},
 //    "cover":{"order":[1,0], "steps":["halve", ["1","0","0"], "body"]},
 //    "of_bodies":[{"order":[0, ...], "steps":["halve", ["1","0","0"], "own", "triangle"]}]}
-// A step that is three integers is a plane. The other forms are those of certificates.h.
+// "ordered" is false for a first hit of which nothing shows that no other part is hit before it, in the bracket. A step
+// that is three integers is a plane. The other forms are those of certificates.h.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // The list of generators, and the parts that they share.
 #include "harness/scene/generators/generators.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -19,13 +20,22 @@ std::span<const Generator> generators() {
       {"brownian", make_brownian},
       {"free_fall", make_free_fall},
       {"rotating_gravity", make_rotating_gravity},
-      {"bullets", make_bullets},
-      {"spinners", make_spinners},
-      {"robot", make_robot},
-      {"cards", make_cards},
+      {"bullets", make_bullets, true},
+      {"spinners", make_spinners, true},
+      {"robot", make_robot, true},
+      {"cards", make_cards, true},
       {"pairs", make_pairs},
   };
   return all;
+}
+
+bool is_scene_of_motion(const std::filesystem::path& file) {
+  if (file.extension() != ".toml") return false;
+  const toml::table table = files::parse_toml(file);
+  const auto name = table["generator"].value<std::string>();
+  return name && std::ranges::any_of(generators(), [&](const Generator& generator) {
+           return generator.name == *name && generator.is_of_motion;
+         });
 }
 
 Scene make_bodies(GeneratorInput& input, const ShapeMixDefaults& defaults, bool turned,

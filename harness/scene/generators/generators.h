@@ -56,9 +56,13 @@ struct Generated {
 struct Generator {
   std::string_view name;
   Generated (*make)(GeneratorInput&);
+  bool is_of_motion = false;  // bodies move far within a frame, for casts
 };
 
 std::span<const Generator> generators();
+
+// True if the file is a scene of such a generator. Throws InputError if it is TOML that cannot be read.
+bool is_scene_of_motion(const std::filesystem::path& file);
 
 // Makes bodies from a mix of shapes, without positions. `turned` is the default for random
 // orientations.

@@ -205,5 +205,24 @@ TEST(EveryCcd, GivingUpIsSaid) {
   }
 }
 
+// Edges whose distance has a double root in time: they pass each other at 240 times the tolerance, and get there
+// slowly.
+TEST(EveryCcd, EdgesThatPassWhereTheirDistanceHasADoubleRoot) {
+  const CcdQuery query{{Vec3d(-1, 0, 0.4375), Vec3d(1, 0, -0.4375),
+                        Vec3d(-0.125, -1, -0.136962890625), Vec3d(-0.125, 1, -0.136962890625)},
+                       {Vec3d(-1, 0, -0.5625), Vec3d(1, 0, 0.5625),
+                        Vec3d(0.875, -1, 0.175537109375), Vec3d(0.875, 1, 0.175537109375)}};
+  for (const double tolerance : {1e-6, 1e-4}) {
+    const CcdSettings settings = {.tolerance = tolerance};
+    const auto outcome =
+        solved(*registry::find<CcdEntry>("directional-advancement"), settings, FeaturePair::edge_edge, {query})
+            .front();
+    EXPECT_EQ(outcome.status, Status::ok) << tolerance;
+    EXPECT_NE(outcome.answer, CcdAnswer::unknown) << tolerance;
+    Counts counts;
+    expect_right(query, FeaturePair::edge_edge, settings, outcome, counts);
+  }
+}
+
 }  // namespace
 }  // namespace touchstone

@@ -35,7 +35,7 @@ inline SceneRayHit solved(const std::vector<SceneBody>& bodies,
 }
 
 // What is verified is true, however it came about: its answer is that of the exact cast, and its bracket holds the
-// time. Its answer is known.
+// time; no other part is hit before the one that it names, if it claims an order. Its answer is known.
 inline void expect_true(const std::vector<SceneBody>& bodies,
                         const oracle::SceneRayCertificate& verified) {
   const SceneRayHit hit = solved(bodies, verified);
@@ -43,6 +43,9 @@ inline void expect_true(const std::vector<SceneBody>& bodies,
   if (verified.answer != CastAnswer::hit) return;
   EXPECT_GE(value_of(verified.upper), hit.t * (1 - 1e-9));
   EXPECT_LE(value_of(verified.lower), hit.t * (1 + 1e-9));
+  const bool is_named = hit.body == verified.body && hit.part == verified.part;
+  if (!verified.is_first || !verified.is_ordered || is_named) return;
+  EXPECT_LE(value_of(verified.upper), hit.t * (1 + 1e-9));
 }
 
 }  // namespace touchstone::reference

@@ -164,7 +164,14 @@ TEST(SceneRayCertificates, WhatIsVerifiedIsTrue) {
       SceneRayCertificate c = proof;
       for (int n = 0; n <= k % 2; ++n) {
         auto& steps = c.cover.steps;
-        switch (random.below(10)) {
+        switch (random.below(11)) {
+          case 10:
+            // The bracket from the start on, with no cover: no order follows.
+            c.lower = {};
+            c.cover = {};
+            c.of_bodies.clear();
+            c.is_ordered = random.below(2) == 0;
+            break;
           case 0: c.answer = static_cast<CastAnswer>(random.below(3)); break;
           case 1: c.lower.numerator *= random.below(3); break;
           case 2:
@@ -197,6 +204,36 @@ TEST(SceneRayCertificates, WhatIsVerifiedIsTrue) {
   }
   EXPECT_GT(verified, 100 / one_in);
   EXPECT_GT(refused, 800 / one_in);
+}
+
+// A second ball on the way is in the bracket from the start to within it. To be the first that is hit, it would have to
+// be reached before the other.
+TEST(SceneRayCertificates, TheOrderIsProvenOrNotClaimed) {
+  const std::vector<SceneBody> bodies = {
+      {body_of(reference::make_sphere(0.5)), moved_by({0, 0, 5})},
+      {body_of(reference::make_sphere(0.5)), moved_by({0, 0, 10})}};
+  CheckedScene checked(placed(bodies));
+  SceneRayCertificate second;
+  second.direction = {0, 0, 1};
+  second.answer = CastAnswer::hit;
+  second.body = 1;
+  second.upper = {10, 1};
+  EXPECT_NE(checked.fault(second), "");
+  second.is_ordered = false;
+  EXPECT_EQ(checked.fault(second), "");
+  second.is_first = false;
+  EXPECT_EQ(checked.fault(second), "only a first hit may be without order");
+  SceneRayProver prover(placed(bodies));
+  const auto first = *prover.prove({0, 0, 0}, {0, 0, 1}, no_end, true);
+  EXPECT_EQ(first.body, 0u);
+  EXPECT_TRUE(first.is_ordered);
+  EXPECT_EQ(checked.fault(first), "");
+  // Two balls in one place, of which either may be first: the time is irrational, and the bracket has both.
+  const std::vector<SceneBody> same = {bodies[0], bodies[0]};
+  const auto either = *SceneRayProver(placed(same)).prove({0.1, 0.2, 0}, {0, 0, 1}, no_end, true);
+  EXPECT_EQ(either.answer, CastAnswer::hit);
+  EXPECT_FALSE(either.is_ordered);
+  EXPECT_EQ(CheckedScene(placed(same)).fault(either), "");
 }
 
 TEST(SceneRayCertificates, NoBodiesBodiesWithoutPartsAndBodiesThatAreNone) {

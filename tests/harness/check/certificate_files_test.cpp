@@ -21,6 +21,12 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+check::CertificateVerdicts verified(const std::filesystem::path& file) {
+  check::CertificateVerdicts verdicts;
+  check::verify_certificates(file, verdicts);
+  return verdicts;
+}
+
 TEST(CertificateFiles, WhatIsSavedIsVerified) {
   const TemporaryFolder folder;
   const check::Regime balls = balls_regime();
@@ -31,7 +37,7 @@ TEST(CertificateFiles, WhatIsSavedIsVerified) {
   request.cases = 8;
   const auto file = folder.path() / "proofs.jsonl";
   EXPECT_EQ(check::save_certificates(request, file), 40);
-  const check::CertificateVerdicts verdicts = check::verify_certificates(file);
+  const check::CertificateVerdicts verdicts = verified(file);
   EXPECT_EQ(verdicts.verified, 40);
   EXPECT_EQ(verdicts.refused_count, 0);
 
@@ -51,7 +57,7 @@ TEST(CertificateFiles, WhatIsSavedIsVerified) {
   replace(2, "\"radius\":1.0", "\"radius\":0.5");
   folder.write("spoilt.jsonl", text);
   const auto spoilt = folder.path() / "spoilt.jsonl";
-  const check::CertificateVerdicts found = check::verify_certificates(spoilt);
+  const check::CertificateVerdicts found = verified(spoilt);
   EXPECT_EQ(found.verified, 38);
   EXPECT_EQ(found.refused_count, 2);
   EXPECT_THAT(found.refused, ElementsAre(StartsWith(spoilt.string() + ":1: balls/"),
@@ -84,8 +90,8 @@ TEST(CertificateFiles, AFullDiskLeavesTheOldFile) {
 TEST(CertificateFiles, BadFiles) {
   const TemporaryFolder folder;
   const auto bad = folder.write("bad.jsonl", "{}\n");
-  EXPECT_THAT(input_fault([&] { check::verify_certificates(bad); }), HasSubstr("bad.jsonl:1: "));
-  EXPECT_THAT(input_fault([&] { check::verify_certificates(folder.path() / "none.jsonl"); }),
+  EXPECT_THAT(input_fault([&] { verified(bad); }), HasSubstr("bad.jsonl:1: "));
+  EXPECT_THAT(input_fault([&] { verified(folder.path() / "none.jsonl"); }),
               HasSubstr("none.jsonl: "));
   check::CheckRequest request;
   const check::Regime balls = balls_regime();

@@ -49,6 +49,29 @@ class CcdCommand : public ::testing::Test {
   TemporaryFolder folder;
 };
 
+// The larger public set has all queries of a scene in one folder, and their truths in another.
+TEST_F(CcdCommand, QueriesAndTruthsOfTheLargerSet) {
+  const auto put = [&](const std::string& path, const std::string& text) {
+    const std::filesystem::path file = folder.path() / "data" / path;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  };
+  put("cloth/queries/12vf.csv", falling("", ""));
+  put("cloth/queries/13vf.csv", falling("", ""));
+  put("cloth/mma_bool/12vf_mma_bool.json", "[true, false]");
+  put("cloth/mma_bool/13vf_mma_bool.json", "[true, false]");
+  const std::string ask = "ccd " + (folder.path() / "data").string() + " --out " + out().string();
+  const Ran ran = run_program(ask + " --ccd exact");
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, ::testing::ContainsRegex("cloth +vertex-face +4 +exact +2 +2 +0 +0 +0"));
+  put("cloth/mma_bool/13vf_mma_bool.json", "[true, true]");
+  EXPECT_EQ(run_program(ask + " --ccd exact").status, 1);
+  put("cloth/mma_bool/13vf_mma_bool.json", "[true]");
+  const Ran short_of_one = run_program(ask + " --ccd exact");
+  EXPECT_EQ(short_of_one.status, 2);
+  EXPECT_THAT(short_of_one.text, ::testing::HasSubstr("1 truths; expected an array of true or"));
+}
+
 TEST_F(CcdCommand, AFolderIsAskedSceneByScene) {
   const auto put = [&](const std::string& path, const std::string& text) {
     const std::filesystem::path file = folder.path() / "data" / path;

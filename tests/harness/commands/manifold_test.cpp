@@ -35,6 +35,23 @@ const std::string plane_and_ball =
     R"("b":{"shape":{"type":"sphere","radius":1},"translation":[3,0,0.5]}})"
     "\n";
 
+// A point of a curved body is found to EPA's tolerance along its surface, and that is no fault.
+TEST(ManifoldCommand, ACapsuleInAnEllipsoidIsNotWrong) {
+  const TemporaryFolder folder;
+  const auto cases = folder.write(
+      "in.jsonl",
+      R"({"id":"round","a":{"shape":{"type":"capsule","radius":0.25,"half_length":0.5},)"
+      R"("quaternion_wxyz":[0.36033056421611737,-0.6498718129234883,-1.26261940429921,)"
+      R"(-0.03240108445443672]},"b":{"shape":{"type":"ellipsoid","radii":[0.5,0.3,0.4]},)"
+      R"("quaternion_wxyz":[0.6147381015864962,-1.5753989526310588,0.009494114972614464,)"
+      R"(-0.7249059447468067],)"
+      R"("translation":[-0.30119135969609834,0.3277910608340312,-0.2479049320239649]}})"
+      "\n");
+  const Ran ran = run_program("manifold " + cases.string() +
+                              " --algorithm clipped-faces --scalar double --grade");
+  EXPECT_EQ(ran.status, 0) << ran.text;
+}
+
 TEST(ManifoldCommand, OneRowForEachPoint) {
   const TemporaryFolder folder;
   const auto cases = folder.write("in.jsonl", cube_on_cube + cube_off_cube + plane_and_ball);

@@ -73,6 +73,8 @@ TEST_F(RunCommand, RefusesWhatIsWrongAndLeavesNothing) {
   expect_refusal("run " + path("late.toml") + out, "missing.toml", folder_);
   expect_refusal("run " + path("c.toml") + " --scene " + path("s.toml") + out, "--scene", folder_);
   expect_refusal("run --broad naive" + out, "--scene", folder_);
+  folder_.write("motion.toml", "generator = 'bullets'\ncount = 20\nframes = 1\n");
+  expect_refusal("run --scene " + path("motion.toml") + out, "touchstone trade ", folder_);
   expect_refusal("run --scene " + path("s.toml") + " --threads 0" + out, "--threads", folder_);
   expect_refusal("run --scene " + path("s.toml") + " --narrow nobody" + out, "'nobody'", folder_);
   expect_refusal("run --scene " + path("s.toml") + " --out /proc/nowhere", "/proc/nowhere",

@@ -78,7 +78,7 @@ const std::string ball_text =
 const std::string scene_text = R"({"bodies":[)" + ball_text + "," + ball_text + "]}";
 const std::string at_scene =
     R"({"ray":7,"task":"any","origin":[0.1,0.0,3.0],"direction":[0.0,0.0,-1.0],"t_max":5.0,)"
-    R"("answer":"hit","lower":["1","3"],"upper":["2","3"],"body":1,"part":4,"generators":[0,3],)"
+    R"("ordered":true,"answer":"hit","lower":["1","3"],"upper":["2","3"],"body":1,"part":4,"generators":[0,3],)"
     R"("surface":{"points":[[0,1]],"triangles":[[0,1,2]]},)"
     R"("cover":{"order":[1,0],"steps":["halve",["1","-2","0"],"body"]},)"
     R"("of_bodies":[{"order":[0],"steps":["own","triangle"]}]})";
@@ -99,8 +99,8 @@ TEST_F(MeshCertificates, OfRaysAtScenes) {
     EXPECT_THAT(fault(scene_text + "\n" + text, true), HasSubstr("in.jsonl:2: " + said));
   };
   for (const std::string key :
-       {"ray", "task", "origin", "direction", "t_max", "answer", "lower", "upper", "body", "part",
-        "generators", "surface", "cover", "of_bodies"}) {
+       {"ray", "task", "origin", "direction", "t_max", "ordered", "answer", "lower", "upper",
+        "body", "part", "generators", "surface", "cover", "of_bodies"}) {
     expect_scene_fault("\"" + key + "\":", "\"x\":", "no \"" + key + "\"");
   }
   expect_scene_fault("\"hit\"", "\"overlapping\"", "answer: found \"overlapping\"");

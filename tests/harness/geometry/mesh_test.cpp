@@ -77,6 +77,18 @@ TEST_F(MeshTest, LeavesOutAByteOrderMark) {
   EXPECT_EQ(read("b.stl", binary_stl(mark)).triangles.size(), 4u);  // part of the title
 }
 
+TEST_F(MeshTest, TextInUtf16IsNamed) {
+  using namespace std::string_literals;
+  const std::string wide =
+      "v\0 \0"
+      "0\0 \0"
+      "0\0 \0"
+      "0\0\n\0"s;
+  for (const std::string& mark : {"\xff\xfe"s, "\xfe\xff"s}) {
+    EXPECT_THAT(error("a.obj", mark + wide), testing::HasSubstr("a.obj:1: text in UTF-16"));
+  }
+}
+
 TEST_F(MeshTest, ASurfaceHasFaces) {
   const auto read_surface = [&](const std::string& content) {
     return geometry::read_surface(folder_.write("a.obj", content));

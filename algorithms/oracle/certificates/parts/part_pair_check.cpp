@@ -17,9 +17,7 @@ bool is_parted(const RationalVector& n, const RationalCore& a, const RationalCor
 
 RationalVector own_normal(const RationalCore& a, const RationalCore& b) {
   require(a.is_halfspace() || b.is_halfspace(), "neither part is a half-space");
-  const RationalVector n = a.is_halfspace() ? a.normal() : mpq_class(-1) * b.normal();
-  require(!is_zero(n), "the matrix of a half-space is singular");
-  return n;
+  return a.is_halfspace() ? a.normal() : mpq_class(-1) * b.normal();
 }
 
 SignedSquare greatest_distance(const PartsCertificate::Met& met, const RationalCore& a,
@@ -29,7 +27,7 @@ SignedSquare greatest_distance(const PartsCertificate::Met& met, const RationalC
   const bool has_surface = !met.surface.triangles.empty() || !met.surface.points.empty();
   if (a.is_halfspace() && b.is_halfspace()) {
     require(!has_points && !has_surface, "two half-spaces need no points");
-    return gap_along(a.normal(), a, b);
+    return distance_of_halfspaces(a, b);
   }
   require(has_points != has_surface, "not one of points and a surface is there");
   if (has_points) return distance_of(met.closest, difference, a, b);

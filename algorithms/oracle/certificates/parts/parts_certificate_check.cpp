@@ -137,10 +137,6 @@ class CheckedParts {
     const auto [i, j] = met.parts;
     require(i < a_.size() && j < b_.size(), "a common point is of no part");
     const RationalCore a = a_.core(i), b = b_.core(j);
-    for (const RationalCore* core : {&a, &b}) {
-      require(!core->is_halfspace() || !is_zero(core->normal()),
-              "the matrix of a half-space is singular");
-    }
     mpq_class within = a_.radius(i) + b_.radius(j);
     if (certificate_.bounds) within += oracle::rational(certificate_.bounds->upper);
     require(greatest_distance(met, a, b) <= SignedSquare{0, within * within},

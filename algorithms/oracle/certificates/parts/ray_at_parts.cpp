@@ -53,10 +53,7 @@ bool has_point(const PlacedParts& parts, std::uint32_t part, const RationalVecto
   }
   require(surface.triangles.empty() && surface.points.empty() && generators.empty(),
           "a surface is there without need");
-  if (core.is_halfspace()) {
-    require(!is_zero(core.normal()), "the matrix of a half-space is singular");
-    return dot(core.normal(), point) <= *core.support(core.normal());
-  }
+  if (core.is_halfspace()) return dot(core.normal(), point) <= *core.support(core.normal());
   if (is_hull || !core.is_polytope()) return core.holds_in_world(point);
   const mpq_class radius = parts.radius(part);
   return squared_distance(point, corners_of(core.vertices())) <= radius * radius;

@@ -15,10 +15,18 @@ struct RaySpan {
   bool is_closed = true;         // the point of the end belongs to it
 
   RationalVector at(const mpq_class& t) const { return origin + t * direction; }
+  // That of another end, which does not belong to it.
+  RaySpan until(const mpq_class& other_end) const { return {origin, direction, other_end, false}; }
   // True if the planes along n part the span from what reaches up to `reach` along -n, and from balls around it.
   bool is_parted(const RationalVector& n, const mpq_class& reach, const mpq_class& radius) const;
   // True if the triangle has no point of the span.
   bool passes(const RationalTriangle& triangle) const;
+};
+
+// The part that is hit at the end of a span, of which it is free only until a time of its own.
+struct PartUntil {
+  std::uint32_t body = 0, part = 0;
+  mpq_class end;
 };
 
 // The corners of a part that is a triangle without a ball, or less.

@@ -9,8 +9,9 @@
 //
 // The part that is hit has the point of the time `upper`. The check finds out by itself, but for hulls of more
 // than three vertices: these need a closed surface of triangles between vertices, each minus the point, around
-// 0. `lower` = `upper` is the exact time. Otherwise the first hit is in the bracket, and which of several parts, of
-// whatever bodies, that are hit there is first is not shown.
+// 0. `lower` = `upper` is the exact time. Otherwise the first hit is in the bracket. Of an ordered one the cover
+// shows more: all other parts are free at the times [0, upper), and so the part that is named is the first that is
+// hit, or one of several at `upper`. Without order another part may be hit before it, in the bracket.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,9 @@ struct SceneRayCertificate {
   Vec3d origin = Vec3d::Zero();     // world (metres)
   Vec3d direction = Vec3d::Zero();  // not zero
   double t_max = std::numeric_limits<double>::infinity();
-  bool is_first =
-      true;  // of a hit: what was asked for is the first, or else any, whose `lower` is 0
+  // Of a hit: what was asked for is the first, or else any, whose `lower` is 0.
+  bool is_first = true;
+  bool is_ordered = true;  // false for a first hit alone, and then nothing is claimed of the order
 
   CastAnswer answer = CastAnswer::unknown;
   TimeFraction lower;                 // not of a miss

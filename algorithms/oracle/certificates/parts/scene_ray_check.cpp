@@ -66,7 +66,7 @@ void require_part_is_free(const RayStep& step, const PlacedParts& parts, std::ui
   const RationalCore core = parts.core(part);
   RationalVector n = rational_vector(step.direction);
   if (step.kind == StepKind::own_plane) {
-    require(core.is_halfspace() && !is_zero(core.normal()), "the part is no half-space");
+    require(core.is_halfspace(), "the part is no half-space");
     n = mpq_class(-1) * core.normal();
   } else {
     require(step.kind == StepKind::plane, "that is no step for a part");
@@ -77,7 +77,7 @@ void require_part_is_free(const RayStep& step, const PlacedParts& parts, std::ui
 }
 
 void require_parts_are_free(const SceneRayCertificate::Cover& cover, const PlacedParts& parts,
-                            const RaySpan& span) {
+                            const RaySpan& span, const PartUntil* hit) {
   const PartTree tree(cover.order, parts.boxes());
   if (parts.size() == 0) return require(cover.steps.empty(), "the cover is too long");
   CoverWalk(
@@ -86,7 +86,8 @@ void require_parts_are_free(const SceneRayCertificate::Cover& cover, const Place
         return span.is_parted(n, parts.support(mpq_class(-1) * n, box), parts.greatest_radius());
       },
       [&](const RayStep& step, std::uint32_t part) {
-        require_part_is_free(step, parts, part, span);
+        const bool is_hit = hit != nullptr && hit->part == part;
+        require_part_is_free(step, parts, part, is_hit ? span.until(hit->end) : span);
       })
       .run();
 }
@@ -151,18 +152,26 @@ void CheckedScene::require_proven(const SceneRayCertificate& certificate) {
                 certificate.surface.triangles.empty(),
             "what is no hit names a part or a time of it");
   }
+  require(certificate.is_ordered || (is_hit && certificate.is_first),
+          "only a first hit may be without order");
   span.end = is_miss ? t_max : lower;
   span.is_closed = is_miss;
+  std::optional<PartUntil> hit;
+  if (is_hit && certificate.is_first && certificate.is_ordered) {
+    span.end = upper;
+    hit = {certificate.body, certificate.part, lower};
+  }
   const bool is_empty = span.end && (is_miss ? *span.end < 0 : *span.end == 0);
   if (is_empty) {
     return require(certificate.cover.order.empty() && certificate.cover.steps.empty() &&
                        certificate.of_bodies.empty(),
                    "a cover is there without need");
   }
-  require_free(certificate, span);
+  require_free(certificate, span, hit ? &*hit : nullptr);
 }
 
-void CheckedScene::require_free(const SceneRayCertificate& certificate, const RaySpan& span) {
+void CheckedScene::require_free(const SceneRayCertificate& certificate, const RaySpan& span,
+                                const PartUntil* hit) {
   const PartTree tree(certificate.cover.order, boxes_);
   const auto is_parted = [&](const RationalVector& n, const RationalBox& box) {
     return span.is_parted(n, support(mpq_class(-1) * n, box), 0);
@@ -176,7 +185,8 @@ void CheckedScene::require_free(const SceneRayCertificate& certificate, const Ra
     }
     require(step.kind == StepKind::body, "that is no step for a body");
     require(seen < certificate.of_bodies.size(), "a body has no cover");
-    require_parts_are_free(certificate.of_bodies[seen++], parts_of(body), span);
+    require_parts_are_free(certificate.of_bodies[seen++], parts_of(body), span,
+                           hit != nullptr && hit->body == body ? hit : nullptr);
   };
   if (bodies_.empty()) {
     require(certificate.cover.steps.empty(), "the cover is too long");

@@ -25,7 +25,9 @@ class CheckedScene {
  private:
   const PlacedParts& parts_of(std::uint32_t body);
   void require_proven(const SceneRayCertificate& certificate);
-  void require_free(const SceneRayCertificate& certificate, const RaySpan& span);
+  // All parts are free of the span, but for the one that is hit, if any, which is until its own time.
+  void require_free(const SceneRayCertificate& certificate, const RaySpan& span,
+                    const PartUntil* hit);
 
   std::vector<PlacedBody> bodies_;
   std::vector<std::optional<RationalBox>> boxes_;  // in the world

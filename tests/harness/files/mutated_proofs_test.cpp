@@ -1,0 +1,456 @@
+// Proofs of every kind are changed at random, as text. One that is verified is still true: its claim is held against
+// the exact answer to the question that the changed proof is of.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithms/oracle/cast/prove_cast.h"
+#include "algorithms/oracle/certificates/cast_certificate_check.h"
+#include "algorithms/oracle/certificates/certificate_check.h"
+#include "algorithms/oracle/certificates/parts/mesh_certificate_check.h"
+#include "algorithms/oracle/certificates/parts/scene_ray_check.h"
+#include "algorithms/oracle/concave/exact_parts_proofs.h"
+#include "algorithms/oracle/oracle.h"
+#include "algorithms/oracle/rays/exact_mesh_proofs.h"
+#include "algorithms/oracle/rays/exact_scene_ray_proofs.h"
+#include "harness/base/error.h"
+#include "harness/families/meshes.h"
+#include "harness/files/certificates.h"
+#include "harness/files/proofs/cast_certificates.h"
+#include "harness/files/proofs/mesh_certificates.h"
+#include "harness/files/proofs/parts_certificates.h"
+#include "tests/algorithms/one_in.h"
+#include "tests/algorithms/random.h"
+#include "tests/algorithms/shapes.h"
+#include "tests/harness/temporary_folder.h"
+
+namespace touchstone {
+namespace {
+
+using files::Json;
+using reference::Random;
+
+// What became of a file: of its certificates, which were verified and claim something.
+struct Judged {
+  int verified = 0, refused = 0, malformed = 0;
+};
+using Judge = std::function<void(const std::filesystem::path&, Judged&)>;
+
+struct ProofKind {
+  std::string name;
+  std::vector<std::vector<Json>> proofs;  // each the lines of a file, the certificate last
+  Judge judge;
+};
+
+bool meets(double low, double high, double other_low, double other_high) {
+  const double slack = 1e-9 * std::max({1.0, std::abs(low), std::abs(high)});
+  return low <= other_high + slack && other_low <= high + slack;
+}
+
+double value_of(const oracle::TimeFraction& t) {
+  return mpq_class(oracle::rational(t.numerator) / oracle::rational(t.denominator)).get_d();
+}
+
+bool is_singular_halfspace(const Shape& shape, const Mat3d& rotation) {
+  return shape.kind == ShapeKind::halfspace &&
+         oracle::RationalCore({oracle::Solid(shape), Pose{rotation, Vec3d::Zero()}}, 64)
+             .is_singular_halfspace();
+}
+
+// --- pairs ---
+
+void judge_pairs(const std::filesystem::path& file, Judged& judged) {
+  files::read_certificates(file, [&](const files::StoredCertificate& stored, std::int64_t) {
+    const oracle::Solid a(stored.shape_a), b(stored.shape_b);
+    const auto body = [](const oracle::Solid& solid, const Pose& pose, const auto& quaternion) {
+      return quaternion ? oracle::Body(solid, *quaternion, pose.translation)
+                        : oracle::Body(solid, pose);
+    };
+    const oracle::Body at_a = body(a, stored.pose_a, stored.quaternion_a),
+                       at_b = body(b, stored.pose_b, stored.quaternion_b);
+    if (!oracle::fault(stored.certificate, at_a, at_b).empty()) {
+      ++judged.refused;
+      return;
+    }
+    ++judged.verified;
+    if (stored.certificate.answer == Answer::unknown) return;
+    if (!stored.quaternion_a) {
+      EXPECT_FALSE(is_singular_halfspace(stored.shape_a, stored.pose_a.rotation));
+    }
+    if (!stored.quaternion_b) {
+      EXPECT_FALSE(is_singular_halfspace(stored.shape_b, stored.pose_b.rotation));
+    }
+    const oracle::Measure truth = oracle::Oracle().measure(at_a, at_b);
+    if (truth.answer == Answer::unknown) return;
+    EXPECT_EQ(stored.certificate.answer, truth.answer) << to_json(stored);
+  });
+}
+
+// --- casts ---
+
+void judge_casts(const std::filesystem::path& file, Judged& judged) {
+  files::read_cast_certificates(
+      file, [&](const files::StoredCastCertificate& stored, std::int64_t) {
+        const files::CastCase& of = stored.of;
+        const oracle::CastCertificate& proof = stored.certificate;
+        const oracle::Solid a(of.shape_a), b(of.shape_b);
+        if (!oracle::fault(proof, {{a, of.pose_a}, of.motion_a}, {{b, of.pose_b}, of.motion_b})
+                 .empty()) {
+          ++judged.refused;
+          return;
+        }
+        ++judged.verified;
+        if (proof.answer == CastAnswer::unknown) return;
+        EXPECT_FALSE(is_singular_halfspace(of.shape_a, of.pose_a.rotation)) << to_json(stored);
+        EXPECT_FALSE(is_singular_halfspace(of.shape_b, of.pose_b.rotation)) << to_json(stored);
+        for (const auto& [shape, motion] :
+             {std::pair(&of.shape_a, &of.motion_a), std::pair(&of.shape_b, &of.motion_b)}) {
+          EXPECT_FALSE(shape->kind == ShapeKind::halfspace && motion->turns()) << to_json(stored);
+        }
+        // The solver wants a half-space as the second body.
+        const bool swap = of.shape_a.kind == ShapeKind::halfspace;
+        if (swap && of.shape_b.kind == ShapeKind::halfspace) return;
+        oracle::EnclosedBody first = enclosed(of.shape_a, a, of.pose_a, of.motion_a),
+                             second = enclosed(of.shape_b, b, of.pose_b, of.motion_b);
+        if (swap) std::swap(first, second);
+        oracle::CastCertificate truth;
+        oracle::Oracle solver;
+        oracle::prove_cast(solver, first, second, oracle::default_tolerance(first, second), truth);
+        if (truth.answer == CastAnswer::unknown) return;
+        EXPECT_EQ(proof.answer, truth.answer) << to_json(stored);
+        if (proof.answer != CastAnswer::hit || truth.answer != CastAnswer::hit) return;
+        EXPECT_TRUE(meets(value_of(proof.lower), value_of(proof.upper), value_of(truth.lower),
+                          value_of(truth.upper)))
+            << to_json(stored);
+      });
+}
+
+// --- bodies of parts ---
+
+void judge_parts(const std::filesystem::path& file, Judged& judged) {
+  files::read_parts_certificates(
+      file, [&](const files::StoredPartsCertificate& stored, std::int64_t) {
+        const files::ConcaveCase& of = stored.of;
+        const oracle::PartsCertificate& proof = stored.certificate;
+        if (!oracle::fault(proof, {of.a, of.pose_a}, {of.b, of.pose_b}).empty()) {
+          ++judged.refused;
+          return;
+        }
+        ++judged.verified;
+        if (proof.answer == Answer::unknown) return;
+        const oracle::PartsCertificate truth =
+            oracle::prove_parts(proof.claim, of.a, of.pose_a, of.b, of.pose_b);
+        if (truth.answer == Answer::unknown) return;
+        EXPECT_EQ(proof.answer, truth.answer) << to_json(stored);
+        if (!proof.bounds || !truth.bounds) return;
+        EXPECT_TRUE(meets(proof.bounds->lower, proof.bounds->upper, truth.bounds->lower,
+                          truth.bounds->upper))
+            << to_json(stored);
+      });
+}
+
+// --- rays and points ---
+
+void judge_rays(const std::filesystem::path& file, Judged& judged) {
+  std::optional<TriangleMesh> mesh;
+  std::vector<files::PlacedConcave> bodies;
+  const auto count = [&](const std::string& why) {
+    ++(why.empty() ? judged.verified : judged.refused);
+    return why.empty();
+  };
+  const auto take_ray = [&](const files::StoredRayCertificate& stored, std::int64_t) {
+    const oracle::RayCertificate& proof = stored.certificate;
+    if (!count(oracle::CheckedMesh(*mesh).fault(proof))) return;
+    const auto truth = oracle::MeshProver(*mesh).prove_ray(proof.origin, proof.direction,
+                                                           proof.t_max, proof.is_first);
+    ASSERT_TRUE(truth) << to_json(stored);
+    EXPECT_EQ(proof.hit, truth->hit) << to_json(stored);
+    if (!proof.hit || !proof.is_first) return;
+    EXPECT_EQ(proof.triangle, truth->triangle) << to_json(stored);
+    EXPECT_EQ(value_of(proof.t), value_of(truth->t)) << to_json(stored);
+  };
+  const auto take_scene_ray = [&](const files::StoredSceneRayCertificate& stored, std::int64_t) {
+    const oracle::SceneRayCertificate& proof = stored.certificate;
+    std::vector<oracle::PlacedBody> placed;
+    for (const auto& [body, pose] : bodies) placed.push_back({body, pose});
+    if (!count(oracle::CheckedScene(placed).fault(proof))) return;
+    if (proof.answer == CastAnswer::unknown) return;
+    const auto truth = oracle::SceneRayProver(placed).prove(proof.origin, proof.direction,
+                                                            proof.t_max, proof.is_first);
+    ASSERT_TRUE(truth) << to_json(stored);
+    if (truth->answer == CastAnswer::unknown) return;
+    EXPECT_EQ(proof.answer, truth->answer) << to_json(stored);
+    if (proof.answer != CastAnswer::hit || truth->answer != CastAnswer::hit || !proof.is_first) {
+      return;
+    }
+    EXPECT_TRUE(meets(value_of(proof.lower), value_of(proof.upper), value_of(truth->lower),
+                      value_of(truth->upper)))
+        << to_json(stored);
+    const bool is_same = proof.body == truth->body && proof.part == truth->part;
+    if (is_same || !proof.is_ordered || !truth->is_ordered) return;
+    // Two parts may be hit at one time.
+    EXPECT_LE(value_of(proof.upper), value_of(truth->upper) * (1 + 1e-9)) << to_json(stored);
+  };
+  const auto take_mesh = [&](const TriangleMesh& read) { mesh = read; };
+  const auto take_scene = [&](std::vector<files::PlacedConcave> read) { bodies = std::move(read); };
+  files::read_ray_certificates(file, {take_mesh, take_ray, take_scene, take_scene_ray});
+}
+
+void judge_points(const std::filesystem::path& file, Judged& judged) {
+  using PointClaim = oracle::PointCertificate::Claim;
+  std::optional<TriangleMesh> mesh;
+  files::read_point_certificates(
+      file, [&](const TriangleMesh& read) { mesh = read; },
+      [&](const files::StoredPointCertificate& stored, std::int64_t) {
+        const oracle::PointCertificate& proof = stored.certificate;
+        if (!oracle::CheckedMesh(*mesh).fault(proof).empty()) {
+          ++judged.refused;
+          return;
+        }
+        ++judged.verified;
+        oracle::MeshProver prover(*mesh);
+        const auto truth = proof.claim == PointClaim::nearest ? prover.prove_nearest(proof.point)
+                                                              : prover.prove_side(proof.point);
+        ASSERT_TRUE(truth) << to_json(stored);
+        EXPECT_EQ(proof.claim, truth->claim) << to_json(stored);
+        EXPECT_EQ(value_of(proof.square), value_of(truth->square)) << to_json(stored);
+        EXPECT_EQ(proof.winding, truth->winding) << to_json(stored);
+      });
+}
+
+// --- what is changed ---
+
+std::vector<Shape> shapes() {
+  using namespace reference;
+  return {make_sphere(0.5),
+          make_capsule(0.25, 0.5),
+          make_box(0.5, 0.25, 0.75),
+          make_cylinder(0.5, 0.5),
+          make_cone(0.5, 0.5),
+          make_ellipsoid(0.75, 0.5, 0.25),
+          make_halfspace({0.5, 0.25, 2}, -0.5)};
+}
+
+Pose random_place(Random& random, double size) { return {random.rotation(), random.vector(size)}; }
+
+ConcaveBody random_body(Random& random) {
+  ConcaveBody body;
+  if (random.below(2) == 0) {
+    const bool solid = random.below(2) == 0;
+    body.mesh = std::make_shared<const TriangleMesh>(families::box_mesh(0.5, 0.75, 0.5, solid));
+    return body;
+  }
+  const auto all = shapes();
+  for (int i = 0; i < 2; ++i) {
+    body.parts.push_back(
+        {all[static_cast<std::size_t>(random.below(6))], random_place(random, 0.75)});
+  }
+  return body;
+}
+
+std::vector<ProofKind> kinds_of_proofs() {
+  Random random(21);
+  ProofKind pairs{"pairs", {}, judge_pairs}, casts{"casts", {}, judge_casts},
+      parts{"parts", {}, judge_parts}, rays{"rays", {}, judge_rays},
+      scenes{"scenes", {}, judge_rays}, points{"points", {}, judge_points};
+  const auto all = shapes();
+  oracle::Oracle solver;
+  const auto any = [&](int most) { return all[static_cast<std::size_t>(random.below(most))]; };
+  for (int i = 0; i < 24; ++i) {
+    files::StoredCertificate stored{
+        "p", "as-given", any(6), any(7), random_place(random, 1), random_place(random, 1),
+        {},  {},         {}};
+    const oracle::Solid a(stored.shape_a), b(stored.shape_b);
+    solver.prove({a, stored.pose_a}, {b, stored.pose_b}, stored.certificate);
+    pairs.proofs.push_back({Json::parse(to_json(stored))});
+
+    files::StoredCastCertificate cast;
+    files::CastCase& of = cast.of;
+    of.id = "c";
+    of.shape_a = any(6);
+    of.shape_b = any(7);
+    of.pose_a = random_place(random, 0.5);
+    of.pose_b = random_place(random, 3);
+    of.motion_a.displacement = random.vector(1);
+    of.motion_b.displacement = -of.pose_b.translation + random.vector(2);
+    if (i % 3 == 0) of.motion_a.rotation_vector = random.vector(1);
+    const oracle::Solid solid_a(of.shape_a), solid_b(of.shape_b);
+    const auto first = enclosed(of.shape_a, solid_a, of.pose_a, of.motion_a),
+               second = enclosed(of.shape_b, solid_b, of.pose_b, of.motion_b);
+    oracle::prove_cast(solver, first, second, 1e-6, cast.certificate);
+    casts.proofs.push_back({Json::parse(to_json(cast))});
+
+    files::StoredPartsCertificate of_parts;
+    files::ConcaveCase& pair = of_parts.of;
+    pair.id = "m";
+    pair.a = random_body(random);
+    pair.b = random_body(random);
+    pair.pose_b = random_place(random, 1.5);
+    of_parts.certificate = oracle::prove_parts(static_cast<oracle::PartsCertificate::Claim>(i % 3),
+                                               pair.a, pair.pose_a, pair.b, pair.pose_b);
+    parts.proofs.push_back({Json::parse(to_json(of_parts))});
+
+    const TriangleMesh mesh =
+        i % 2 == 0 ? families::torus(5, 4, 1, 0.5, true) : families::box_mesh(0.5, 1, 0.75, true);
+    const Json head = Json::parse(files::mesh_line(mesh));
+    oracle::MeshProver prover(mesh);
+    const Vec3d origin = 3 * random.direction();
+    const double end = i % 5 == 0 ? 0.5 : HUGE_VAL;
+    const auto ray = prover.prove_ray(origin, random.vector(1) - origin, end, i % 4 > 0);
+    rays.proofs.push_back({head, Json::parse(to_json(files::StoredRayCertificate{0, *ray}))});
+    const auto point =
+        i % 3 == 0 ? prover.prove_nearest(random.vector(1)) : prover.prove_side(random.vector(1));
+    points.proofs.push_back({head, Json::parse(to_json(files::StoredPointCertificate{0, *point}))});
+
+    std::vector<files::PlacedConcave> bodies;
+    for (int k = 0; k < 3; ++k) {
+      bodies.push_back({random_body(random), random_place(random, 1.5)});
+    }
+    std::vector<oracle::PlacedBody> placed;
+    for (const auto& [body, pose] : bodies) placed.push_back({body, pose});
+    const auto take_scene_ray = oracle::SceneRayProver(placed).prove(
+        2 * origin, random.vector(1) - 2 * origin, end, i % 4 > 0);
+    scenes.proofs.push_back(
+        {Json::parse(files::scene_line(bodies)),
+         Json::parse(to_json(files::StoredSceneRayCertificate{0, *take_scene_ray}))});
+  }
+  return {pairs, casts, parts, rays, scenes, points};
+}
+
+// --- changes ---
+
+using Place = Json::json_pointer;
+
+// The places of all values below one, some of each long array.
+void add_places(const Json& value, const Place& here, Random& random, std::vector<Place>& all) {
+  all.push_back(here);
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) add_places(inner, here / key, random, all);
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (i < 4 || random.below(8) == 0) add_places(value[i], here / i, random, all);
+    }
+  }
+}
+
+void change_number(Json& value, Random& random) {
+  if (value.is_number_integer()) {
+    const auto number = value.get<std::int64_t>();
+    const std::int64_t others[] = {0, 1, number + 1, number > 0 ? number - 1 : 0, 1'000'000};
+    value = others[static_cast<std::size_t>(random.below(5))];
+    return;
+  }
+  const double number = value.get<double>();
+  const double others[] = {0.0,           -number, 2 * number, number + 0.25, number * 1.001,
+                           number - 1e-9, 1e-300,  1e100};
+  value = others[static_cast<std::size_t>(random.below(8))];
+}
+
+void change_text(Json& value, const std::string& other, Random& random) {
+  const std::string text = value.get<std::string>();
+  const bool is_number = text.find_first_not_of("-0123456789") == std::string::npos;
+  if (!is_number) {
+    value = other;
+    return;
+  }
+  const std::string positive = text.starts_with('-') ? text.substr(1) : text;
+  const std::string others[] = {"0",        "1",
+                                "-1",       text.starts_with('-') ? positive : "-" + text,
+                                text + "0", positive.substr(0, (positive.size() + 1) / 2),
+                                other};
+  value = others[static_cast<std::size_t>(random.below(7))];
+}
+
+// Changes one thing. `other` is another proof of the kind.
+void change(Json& proof, const Json& other, Random& random) {
+  static const std::vector<std::string> words = {
+      "hit",      "miss", "unknown", "separated", "touching",  "overlapping",
+      "closest",  "any",  "inside",  "outside",   "surface",   "nearest",
+      "halve",    "body", "own",     "triangle",  "intersect", "distance",
+      "contacts", "open", "meet",    "a",         "b",         "inf"};
+  std::vector<Place> places;
+  add_places(proof, Place(), random, places);
+  const Place at = places[static_cast<std::size_t>(random.below(static_cast<int>(places.size())))];
+  Json& value = proof[at];
+  if (random.below(6) == 0 && other.contains(at)) {
+    value = other[at];
+    return;
+  }
+  const auto within = [&] {
+    return static_cast<std::size_t>(random.below(static_cast<int>(value.size())));
+  };
+  if (value.is_boolean()) {
+    value = !value.get<bool>();
+  } else if (value.is_number()) {
+    change_number(value, random);
+  } else if (value.is_string()) {
+    change_text(value, words[static_cast<std::size_t>(random.below(24))], random);
+  } else if (value.is_array() && !value.empty()) {
+    const std::size_t i = within(), k = within();
+    switch (random.below(5)) {
+      case 0: value.erase(i); break;
+      case 1: value.push_back(Json(value[i])); break;
+      case 2: value = Json::array(); break;
+      case 3:
+        // A matrix with a row of zeros, or a vector of zeros.
+        for (std::size_t n = value.size() >= 9 ? 6 : 0; n < value.size(); ++n) {
+          if (value[n].is_number_float()) value[n] = 0.0;
+        }
+        break;
+      default: std::swap(value[i], value[k]); break;
+    }
+  }
+}
+
+void write_lines(const TemporaryFolder& folder, const std::vector<Json>& lines) {
+  std::string text;
+  for (const Json& line : lines) text += line.dump() + "\n";
+  folder.write("proof.jsonl", text);
+}
+
+TEST(MutatedProofs, OfEveryKindThatAreVerifiedAreTrue) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "proof.jsonl";
+  for (const ProofKind& kind : kinds_of_proofs()) {
+    SCOPED_TRACE(kind.name);
+    Judged whole;
+    for (const auto& lines : kind.proofs) {
+      write_lines(folder, lines);
+      kind.judge(file, whole);
+    }
+    EXPECT_EQ(whole.verified, 24);
+    Random random(22);
+    Judged judged;
+    for (int i = 0; i < drawn(2000, 100); ++i) {
+      const auto pick = [&] {
+        return kind
+            .proofs[static_cast<std::size_t>(random.below(static_cast<int>(kind.proofs.size())))];
+      };
+      std::vector<Json> lines = pick();
+      const std::vector<Json> other = pick();
+      // Mostly the proof is changed, seldom what it is at, and both for a step of several.
+      for (int k = 0; k <= random.below(3); ++k) {
+        const std::size_t line = random.below(5) == 0 ? 0 : lines.size() - 1;
+        change(lines[line], other[line], random);
+      }
+      write_lines(folder, lines);
+      try {
+        kind.judge(file, judged);
+      } catch (const base::InputError&) {
+        ++judged.malformed;
+      }
+      if (testing::Test::HasFailure()) return;
+    }
+    EXPECT_GT(judged.verified, 100 / one_in);
+    EXPECT_GT(judged.refused, 200 / one_in);
+    RecordProperty(kind.name + "_verified", judged.verified);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone
