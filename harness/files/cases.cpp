@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "harness/files/key_warnings.h"
+#include "harness/files/concave/key_warnings.h"
 #include "harness/files/motion/case_json.h"
 #include "harness/files/shape_json.h"
 

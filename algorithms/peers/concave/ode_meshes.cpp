@@ -56,9 +56,10 @@ struct Surface {
 class OdeMeshes final : public ConcavePhase {
  public:
   void bind(std::span<const ConcaveBody> bodies) override {
-    const auto lock = ode::enter();
+    // What was bound before takes the lock as it goes.
     bodies_.clear();
     surfaces_.clear();
+    const auto lock = ode::enter();
     for (const ConcaveBody& body : bodies) {
       Parts& parts = bodies_.emplace_back();
       if (body.mesh && !body.mesh->triangles.empty()) {

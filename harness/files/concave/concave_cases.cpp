@@ -2,7 +2,7 @@
 #include "harness/files/concave/concave_cases.h"
 
 #include "harness/files/concave/concave_json.h"
-#include "harness/files/key_warnings.h"
+#include "harness/files/concave/key_warnings.h"
 
 namespace touchstone::files {
 namespace {

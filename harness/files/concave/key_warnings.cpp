@@ -1,5 +1,5 @@
 // Compares keys by the number of letters to insert, delete, replace or exchange with the next.
-#include "harness/files/key_warnings.h"
+#include "harness/files/concave/key_warnings.h"
 
 #include <algorithm>
 #include <array>
