@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -174,15 +175,20 @@ class FeatureQuestions final : public Questions {
 
   ShownAnswer shown(std::size_t query, std::size_t contestant) const override {
     const CcdOutcome& outcome = asked_[contestant].outcomes[query];
-    ShownAnswer shown = {.verdict = to_string(outcome.answer),
-                         .status = outcome.status,
-                         .number = outcome.toi,
-                         .lower = outcome.free_before,
-                         .upper = outcome.contact_by};
+    ShownAnswer shown = {
+        .verdict = to_string(outcome.answer), .status = outcome.status, .number = outcome.toi};
+    if (info(contestant).origin == Origin::oracle) {
+      shown.lower = outcome.free_before;
+      shown.upper = outcome.contact_by;
+    } else if (!std::isnan(outcome.free_before)) {
+      // Where contact is proven by, features may be as far apart as the tolerance: no bound on the time.
+      shown.more = fmt::format("free before {}", outcome.free_before);
+    }
     if (!part_.contacts.empty() && settings_.separation == 0) {
       const bool is_contact = part_.contacts[query] != 0;
       const bool is_hit = outcome.answer == CcdAnswer::hit;
-      if (is_hit != is_contact) shown.more = is_hit ? "(false, says FILE)" : "(missed, says FILE)";
+      if (is_hit != is_contact && outcome.answer != CcdAnswer::unknown)
+        shown.more += is_hit ? "  [false, by FILE]" : "  [missed, by FILE]";
     }
     return shown;
   }

@@ -102,6 +102,15 @@ class MeshQuestions final : public AnswersOf<ConcaveEntry, MeshReply> {
     return {{"--pairs", input_.text("--pairs")}, {"--contacts", input_.text("--contacts")}};
   }
   std::string_view unit() const override { return "m"; }
+  std::vector<std::string> of_other_scalar() const override {
+    std::vector<std::string> names;
+    for (const Asked& asked : asked_) {
+      const auto& scalars = asked.entry->scalars;
+      const bool is_left_out = std::ranges::find(scalars, settings_.scalar) == scalars.end();
+      if (is_left_out) names.push_back(asked.entry->info.name);
+    }
+    return names;
+  }
 
   std::vector<AskFailure> ask(std::size_t contestant) override {
     const ConcaveEntry& entry = *asked_[contestant].entry;

@@ -63,6 +63,13 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
   std::string label(std::size_t i) const override { return fmt::format("case '{}'", cases_[i].id); }
   std::vector<files::NamedFile> inputs() const override { return {{"FILE", input_.file}}; }
   std::string_view unit() const override { return "m"; }
+  std::vector<std::string> of_other_scalar() const override {
+    std::vector<std::string> names;
+    for (const Asked& asked : asked_) {
+      if (!offers(*asked.entry, settings_.scalar)) names.push_back(asked.entry->info.name);
+    }
+    return names;
+  }
 
   std::vector<AskFailure> ask(std::size_t contestant) override {
     const NarrowPhaseEntry& entry = *asked_[contestant].entry;
