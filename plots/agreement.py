@@ -8,7 +8,7 @@ import common
 
 KINDS = {
     "wrong": {"color": "#D55E00", "marker": "X", "label": "wrong, and said to be right"},
-    "failed": {"color": "#0072B2", "marker": "o", "label": "failed, and said so"},
+    "failed": {"color": "#0072B2", "marker": "o", "label": "gave up"},
     "unanswered": {"color": "#888888", "marker": "s", "label": "no answer, or not compared"},
 }
 

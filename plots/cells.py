@@ -9,8 +9,8 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 import common
 
-FILE = "grades.csv"  # only a folder of cells has one
-TEXTS = {"group", "cell", "algorithm", "origin", "hit_hash", "status"}
+FILE = "set_grades.csv"  # only a folder of cells has one
+TEXTS = {"group", "cell", "algorithm", "origin", "truth", "hit_hash", "status"}
 WRONG = ("missed", "false_hits", "inexact")
 RED = "#B2182B"
 
@@ -57,7 +57,7 @@ def draw(rows):
 
 
 def run(folder, out):
-    figure = draw(common.read_table(folder, "times", TEXTS))
+    figure = draw(common.read_table(folder, "set_times", TEXTS))
     os.makedirs(out, exist_ok=True)
     print(", ".join(common.save(figure, out, "cells")))
 

@@ -1,6 +1,6 @@
 """What the figures share: the tables that they are drawn from, their style, and how they are saved.
 
-The program computes every number (`touchstone tables`), so that a figure and a table cannot disagree.
+The program computes every number (`touchstone show --tables`), so that a figure and a table cannot disagree.
 """
 
 import argparse
@@ -96,7 +96,7 @@ def read_table(folder, name, texts=frozenset(TEXTS)):
                         row[column] = float(text) if text else None
                 rows.append(row)
     except FileNotFoundError:
-        raise BadRequest(f"{path} is missing; `touchstone tables RESULTS` writes it") from None
+        raise BadRequest(f"{path} is missing; `touchstone show RESULTS --tables` writes it") from None
     except (ValueError, TypeError) as error:
         raise BadRequest(f"{path}: {error}") from None
     return rows
@@ -260,7 +260,7 @@ def run(figures, description, of_file=None):
                 return draw(folder, out)
         os.makedirs(out, exist_ok=True)
         if options.program:
-            request = [options.program, "tables", folder, "--out", out]
+            request = [options.program, "show", folder, "--tables", "--out", out]
             done = subprocess.run(request + (["--noisy"] if options.noisy else []),
                                   stdout=subprocess.DEVNULL, check=False)
             if done.returncode != 0:

@@ -1,4 +1,4 @@
-"""Every figure of a results folder: what `touchstone plot` runs."""
+"""Every figure of a results folder: what `touchstone show --figures` runs."""
 
 import sys
 

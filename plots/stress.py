@@ -12,7 +12,7 @@ import common
 # From the outcome that one hopes for to the one that one fears; drawn from below in this order.
 OUTCOMES = {
     "right": ("#cfe8dd", "right"),
-    "honest": ("#E69F00", "says that it fails"),
+    "honest": ("#E69F00", "gave up"),
     "rounded": ("#f2b9d6", "wrong, as the input was rounded"),
     "silent": ("#C1121F", "silently wrong"),
     "crashed": ("#000000", "crashes"),
@@ -40,7 +40,7 @@ def read(folder):
         with common.open_rows(os.path.join(folder, "envelope.csv")) as file:
             ours = {row["algorithm"] for row in csv.DictReader(file) if row["origin"] == "ours"}
     except FileNotFoundError as error:
-        raise common.BadRequest(f"{error.filename} is missing; `touchstone stress` writes it") from None
+        raise common.BadRequest(f"{error.filename} is missing; `touchstone check --axes` writes it") from None
     except (ValueError, TypeError, KeyError) as error:
         raise common.BadRequest(f"{path}: {error}") from None
     return maps, values, ours

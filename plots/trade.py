@@ -1,7 +1,7 @@
 """Time a frame against error: every configuration of a trade on one scene, and the Pareto front, each of its points
 by name; what is dominated is grey.
 
-    python3 plots/trade.py RESULTS [--out DIR]      RESULTS as `touchstone trade` leaves it
+    python3 plots/trade.py RESULTS [--out DIR]      RESULTS as `touchstone advise --front` leaves it
 """
 
 import csv
@@ -29,7 +29,7 @@ def read(folder):
             for column in NUMBERS:
                 row[column] = float(row[column]) if row[column] else None
     except FileNotFoundError as error:
-        raise common.BadRequest(f"{error.filename} is missing; `touchstone trade SCENE` writes it") from None
+        raise common.BadRequest(f"{error.filename} is missing; `touchstone advise SCENE --front` writes it") from None
     except (KeyError, ValueError) as error:
         raise common.BadRequest(f"{folder}: {error} in points.csv or machine.csv") from None
     return [r for r in rows if r["status"] == "ok" and r["seconds"] and r["error"] is not None], facts

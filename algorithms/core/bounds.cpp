@@ -27,7 +27,8 @@ Vec3d support_in_body(const Shape& s, const Vec3d& d) {
     }
     case ShapeKind::ellipsoid: {
       const Vec3d e = s.radii.cwiseProduct(d);
-      return s.radii.cwiseProduct(e / e.norm());
+      const double length = e.norm();
+      return length > 0 ? Vec3d(s.radii.cwiseProduct(e / length)) : Vec3d(0, 0, 0);
     }
     case ShapeKind::hull: {
       Vec3d best = s.hull->vertices[0];

@@ -15,7 +15,7 @@ namespace touchstone::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int threads = 2;
+constexpr int width = 2;
 
 void stay_busy(std::chrono::nanoseconds time) {
   const auto end = Clock::now() + time;
@@ -31,7 +31,7 @@ double seconds_since(Clock::time_point start) {
 void measure(benchmark::State& state, ExecutorKind kind,
              const std::function<double(Executor&)>& take) {
   std::thread([&] {
-    Executor executor(threads, Pinning::one_a_thread, kind);
+    Executor executor(width, Pinning::one_a_thread, kind);
     for (int i = 0; i < 100; ++i) take(executor);
     for (auto _ : state) state.SetIterationTime(take(executor));
   }).join();
@@ -46,10 +46,10 @@ double shared(Executor& executor, std::size_t microseconds) {
   const auto body = [&time](std::size_t, int) {
     if (time > 0ns) stay_busy(time);
   };
-  executor.run(threads, body);
+  executor.run(width, body);
   time = microseconds == 0 ? 0us : 1us;
   const auto start = Clock::now();
-  executor.run(microseconds == 0 ? threads : microseconds, body);
+  executor.run(microseconds == 0 ? width : microseconds, body);
   return seconds_since(start);
 }
 

@@ -22,7 +22,7 @@ void SetTimes::add(const record::RawRow& row) {
   sample.square = row.square;
   sample.round = row.round;
   sample.position = row.position;
-  sample.units = static_cast<double>(row.narrow.empty() ? row.frames : row.pair_count);
+  sample.units = static_cast<double>(row.units());
   sample.noisy = !row.noise.empty() && row.noise != "canary";
   stats::add_phase(contestants_[label], row.phase, sample, row.seconds);
 }

@@ -1,19 +1,22 @@
-// Grades the contestants of each cell in a process of their own, then times them here.
+// Grades the contestants of each set in a process of their own, then has them timed.
 #include "harness/cells/cell_run.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <map>
+#include <set>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "harness/base/clock.h"
 #include "harness/base/hash.h"
-#include "harness/base/random.h"
-#include "harness/measure/noise.h"
+#include "harness/cells/set_timing.h"
 #include "harness/process/interrupt.h"
 #include "harness/process/isolate.h"
 #include "harness/record/machine.h"
+#include "harness/record/raw_row.h"
 #include "harness/stats/cells/cell_rows.h"
 
 namespace touchstone::cells {
@@ -23,7 +26,8 @@ enum File : std::size_t { grades_file, raw_file };
 
 struct Graded {
   kinds::TimedGrade grade;
-  double seconds = 0;  // of one answer to all queries
+  double seconds = 0;      // of one answer to all queries, warm if it is in time
+  std::uint64_t hash = 0;  // of the answers
   process::ItemState state = process::ItemState::not_run;
 };
 
@@ -31,37 +35,34 @@ std::vector<Graded> grade(const kinds::TimedSet& cell, double time_limit) {
   struct Shared {
     kinds::TimedGrade grade;
     double seconds;
+    std::uint64_t hash;
   };
   process::SharedArray<Shared> shared(cell.contestants.size());
   process::IsolationLimits limits;
-  limits.item_seconds = 4 * time_limit;
+  limits.item_seconds = 5 * time_limit;
   const process::IsolationReport report =
       process::isolate(cell.contestants.size(), limits, [&]() -> process::ItemWork {
         return [&](std::size_t i) {
-          if (cell.contestants[i].prepare) cell.contestants[i].prepare();
+          const kinds::TimedContestant& contestant = cell.contestants[i];
+          if (contestant.prepare) contestant.prepare();
           const base::Stopwatch watch;
-          cell.contestants[i].answer();
-          shared[i].seconds = watch.seconds();
-          shared[i].grade = cell.contestants[i].grade();
+          contestant.answer();
+          double seconds = watch.seconds();
+          // What is cold takes longer than the samples, so that it would cut them short.
+          if (seconds <= time_limit) {
+            const base::Stopwatch again;
+            contestant.answer();
+            seconds = std::min(seconds, again.seconds());
+          }
+          shared[i].seconds = seconds;
+          if (contestant.hash) shared[i].hash = contestant.hash();
+          shared[i].grade = contestant.grade();
         };
       });
   std::vector<Graded> graded;
   for (std::size_t i = 0; i < cell.contestants.size(); ++i)
-    graded.push_back({shared[i].grade, shared[i].seconds, report.states[i]});
+    graded.push_back({shared[i].grade, shared[i].seconds, shared[i].hash, report.states[i]});
   return graded;
-}
-
-// A contestant of one of the cells that share their rounds.
-struct Timed {
-  const kinds::PlannedSet* planned;
-  const kinds::TimedContestant* contestant;
-  std::int64_t queries;
-  double seconds;  // of one answer to all queries
-};
-
-std::vector<Timed> shuffled(std::vector<Timed> order, base::Random random) {
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-  return order;
 }
 
 // The cells, each with those that join it.
@@ -83,9 +84,10 @@ class CellRun {
 
   CellRunResult run(const std::function<void(const std::string&)>& say) {
     const process::InterruptGuard guard;
-    note_earlier_grades();
+    take_over();
     const std::vector<std::span<const kinds::PlannedSet>> all = with_joined(request_.cells);
-    for (std::size_t i = static_cast<std::size_t>(folder_.units()); i < all.size(); ++i) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (is_done(i)) continue;
       for (const kinds::PlannedSet& planned : all[i]) {
         say(fmt::format("[{}/{}] {}, {}", &planned - request_.cells.data() + 1,
                         request_.cells.size(), planned.group, planned.name));
@@ -94,7 +96,6 @@ class CellRun {
         result_.interrupted = true;
         return result_;
       }
-      folder_.commit();
     }
     folder_.finish();
     return result_;
@@ -106,8 +107,8 @@ class CellRun {
                                        record::FolderStart start) {
     record::ResultFolderPlan plan;
     plan.folder = folder;
-    plan.files = {{"grades.csv", record::header_of<stats::GradeRow>()},
-                  {"raw.csv", record::header_of<stats::CellSampleRow>()}};
+    plan.files = {{"set_grades.csv", record::header_of<stats::GradeRow>()},
+                  {"raw.csv", record::header_of<record::RawRow>()}};
     plan.identity = {{"cells", request.name},
                      {"rounds", std::to_string(request.rounds)},
                      {"sample_seconds", fmt::format("{}", request.sample_seconds)},
@@ -115,7 +116,7 @@ class CellRun {
     plan.identity.insert(plan.identity.end(), request.identity.begin(), request.identity.end());
     for (auto& fact : record::machine_facts()) plan.identity.push_back(std::move(fact));
     plan.start = start;
-    plan.made = {"times.csv", "best.csv", "speed_ups.csv", "tables.md"};
+    plan.made = {"set_times.csv", "set_best.csv", "set_speed_ups.csv", "tables.md"};
     return plan;
   }
 
@@ -123,41 +124,68 @@ class CellRun {
     result_.ours_wrong |=
         row.origin == "ours" && !row.approximate && (!row.is_right() || row.status == "crashed");
   }
-  void note_earlier_grades() {
-    folder_.each_row<stats::GradeRow>(grades_file, [&](const stats::GradeRow& row) { note(row); });
+  // A crash or another answer of ours in a sample is as wrong as one that was graded.
+  void note(const record::RawRow& row) {
+    result_.ours_wrong |= row.origin == record::RowOrigin::ours &&
+                          (row.wrong() || row.status == record::RowStatus::crashed);
+  }
+  // Notes what a run did that was stopped.
+  void take_over() {
+    folder_.each_row<stats::GradeRow>(grades_file, [&](const stats::GradeRow& row) {
+      note(row);
+      graded_.emplace(row.group, row.cell);
+    });
+    folder_.each_row<record::RawRow>(raw_file, [&](const record::RawRow& row) {
+      note(row);
+      earlier_[row.block].push_back(row);
+    });
+  }
+  bool is_done(std::size_t number) const {
+    if (folder_.was_finished()) return true;
+    const auto earlier = earlier_.find(static_cast<std::int64_t>(number));
+    return earlier != earlier_.end() &&
+           std::ranges::any_of(earlier->second,
+                               [](const record::RawRow& row) { return !row.stop.empty(); });
   }
 
   // Returns false if it was interrupted.
   bool measure(std::span<const kinds::PlannedSet> joined, std::size_t number) {
+    // Grades of a run that was stopped stand in the folder, and the answers are needed again.
+    const bool is_graded = graded_.contains({joined.front().group, joined.front().name});
     std::vector<kinds::TimedSet> cells;
     for (const kinds::PlannedSet& planned : joined) cells.push_back(planned.make());
-    std::vector<Timed> timed;
+    std::vector<SetMember> members;
     for (std::size_t k = 0; k < joined.size(); ++k) {
       const kinds::PlannedSet& planned = joined[k];
       const kinds::TimedSet& cell = cells[k];
       const std::vector<Graded> graded = grade(cell, request_.time_limit);
       for (std::size_t i = 0; i < graded.size(); ++i) {
         const kinds::TimedContestant& contestant = cell.contestants[i];
-        write_grade(planned, cell, contestant, graded[i]);
-        if (graded[i].state == process::ItemState::done && graded[i].seconds <= request_.time_limit)
-          timed.push_back({&planned, &contestant, cell.queries, graded[i].seconds});
+        if (!is_graded) write_grade(planned, cell, contestant, graded[i]);
+        if (graded[i].state != process::ItemState::done || graded[i].seconds > request_.time_limit)
+          continue;
+        members.push_back({.planned = &planned,
+                           .contestant = &contestant,
+                           .queries = std::max<std::int64_t>(cell.queries, 1),
+                           .seconds = graded[i].seconds,
+                           .hash = graded[i].hash});
       }
+      if (is_graded) continue;
       for (const kinds::LeftOut& left_out : cell.left_out) write_left_out(planned, cell, left_out);
     }
-    // What is cold is not timed, and takes longer than the samples, so that it would cut them short.
-    for (Timed& one : timed) {
-      if (one.contestant->prepare) one.contestant->prepare();
-      one.contestant->answer();
-      const base::Stopwatch watch;
-      one.contestant->answer();
-      one.seconds = std::min(one.seconds, watch.seconds());
+    if (!is_graded) folder_.commit();
+    if (!members.empty() && !process::InterruptGuard::raised()) {
+      const auto place = static_cast<std::int64_t>(number);
+      SetTiming(request_, place, with_twins(members), earlier_[place])
+          .run([&](std::span<const record::RawRow> rows) {
+            for (const record::RawRow& row : rows) {
+              note(row);
+              folder_.write(raw_file, row);
+            }
+            folder_.commit();
+          });
     }
-    for (int round = 0; round < request_.rounds; ++round) {
-      if (process::InterruptGuard::raised()) return false;
-      time_round(round,
-                 shuffled(timed, base::Random(request_.seed, number << 16 | unsigned(round))));
-    }
-    return true;
+    return !process::InterruptGuard::raised();
   }
 
   void write_grade(const kinds::PlannedSet& planned, const kinds::TimedSet& cell,
@@ -199,37 +227,11 @@ class CellRun {
     folder_.write(grades_file, row);
   }
 
-  void time_round(int round, const std::vector<Timed>& order) {
-    const measure::NoiseReading before = measure::NoiseReading::now();
-    const base::Stopwatch whole;
-    std::vector<stats::CellSampleRow> rows;
-    for (std::size_t position = 0; position < order.size(); ++position) {
-      const Timed& one = order[position];
-      stats::CellSampleRow row;
-      row.group = one.planned->group;
-      row.cell = one.planned->name;
-      row.algorithm = one.contestant->name;
-      row.round = round;
-      row.position = static_cast<std::int64_t>(position);
-      row.repeats = static_cast<std::int64_t>(
-          std::clamp(std::ceil(request_.sample_seconds / std::max(one.seconds, 1e-7)), 1.0, 1e6));
-      const base::Stopwatch watch;
-      for (std::int64_t k = 0; k < row.repeats; ++k) one.contestant->answer();
-      row.seconds = watch.seconds() / static_cast<double>(row.repeats) /
-                    static_cast<double>(std::max<std::int64_t>(one.queries, 1));
-      rows.push_back(row);
-    }
-    const std::string noise =
-        measure::noise_judge()(before, measure::NoiseReading::now(), whole.seconds(), 0);
-    for (stats::CellSampleRow& row : rows) {
-      row.noise = noise;
-      folder_.write(raw_file, row);
-    }
-  }
-
   const CellRequest& request_;
   record::ResultFolder folder_;
   CellRunResult result_;
+  std::set<std::pair<std::string, std::string>> graded_;         // group and name of sets
+  std::map<std::int64_t, std::vector<record::RawRow>> earlier_;  // by the number of the sets
 };
 
 }  // namespace

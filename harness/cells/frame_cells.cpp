@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "algorithms/registry.h"
+#include "harness/base/hash.h"
 #include "harness/cells/kinds.h"
 #include "harness/grade/pair_check.h"
 #include "harness/kinds/set_keys.h"
@@ -105,6 +106,13 @@ class LoopPlayer {
     }
   }
 
+  // Of the last frame's answer; it does not depend on the order of the pairs.
+  std::uint64_t hash() const {
+    const std::uint64_t pairs = base::pair_hash(pairs_.gather());
+    return question_ == Question::changes ? pairs + base::mix(base::pair_hash(ended_.gather()))
+                                          : pairs;
+  }
+
   // Plays the loop once more, and holds every answer against the true pairs.
   kinds::TimedGrade grade() {
     kinds::TimedGrade grade;
@@ -184,7 +192,8 @@ kinds::TimedSet make_frame_cell(const std::shared_ptr<const FrameLoop>& loop, Qu
                                 .approximate = !entry->info.known_defect.empty(),
                                 .prepare = [=] { player->prepare(); },
                                 .answer = [=] { player->play([](std::size_t, Status) {}); },
-                                .grade = [=] { return player->grade(); }});
+                                .grade = [=] { return player->grade(); },
+                                .hash = [=] { return player->hash(); }});
   }
   return cell;
 }
@@ -276,7 +285,8 @@ std::vector<kinds::PlannedSet> frame_cells(files::TomlTable& table,
           return make_frame_cell(last->of(source, i), static_cast<Question>(question),
                                  static_cast<int>(width), entries);
         };
-        cells.push_back({sources[i].name(), name, make, width != threads.front()});
+        cells.push_back(
+            {sources[i].name(), name, make, width != threads.front(), static_cast<int>(width)});
       }
     }
   }

@@ -80,6 +80,10 @@ CellRequest read_cells(const std::filesystem::path& file) {
   request.time_limit = table.number("time_limit", files::positive, request.time_limit);
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   request.seed = static_cast<std::uint64_t>(table.integer("order_seed", 0, most, 1));
+  request.query_kind = table.text("kind");
+  if (const kinds::Kind* kind = kinds::find_kind(request.query_kind))
+    request.query_kind = kind->name();
+  if (request.query_kind == "casts") request.query_kind = kinds::cast_kind().name();
   request.cells = read_sets(table, file.parent_path());
   refuse_equal_names(table, request.cells);
   table.finish();

@@ -28,19 +28,21 @@ std::string introduction(const CheckReport& report, const std::string& command) 
 
 std::string sides_of_contact(const GroupedCounts& grouped) {
   std::string text =
-      "\n## Side of contact\n\nA silent error is an answer on the wrong side of contact whose "
-      "status does not tell. *Given* is against the exact answer for the bits that the "
+      "\n## Side of contact\n\nA silent error is an answer on the wrong side of contact with "
+      "status `ok` "
+      "or none. *Given* is against the exact answer for the bits that the "
       "algorithm was given, after conversion to float or to a quaternion; *end to end* is "
       "against the pair as the case has it. *Margin* is the greatest exact distance or depth "
-      "of a pair that was called wrongly. *Within resolution* are answers `touching` with bounds "
+      "of a silent error. *Within resolution* are answers `touching` with bounds "
       "on "
       "the signed distance: they are right if the bounds hold, and take no side; *width* is the "
-      "greatest distance of the bounds. An honest failure is one that the status states, up to "
-      "that distance or depth. Pairs that touch exactly are not scored otherwise: the column "
+      "greatest distance of the bounds. *Gave up*: the status says that the answer is not to be "
+      "trusted, or there is no answer; *up to* is the greatest exact distance or depth there. "
+      "Pairs that touch exactly are not scored otherwise: the column "
       "says how many of them were called contact.\n\n";
   base::Table table({"algorithm", "answers", "silent, given", "margin", "silent, end to end",
-                     "margin", "within resolution", "width", "honest failures", "up to",
-                     "status says nothing", "crashed", "hung", "touching: contact"});
+                     "margin", "within resolution", "width", "gave up", "up to", "no status",
+                     "crashed", "hung", "touching: contact"});
   for (const auto& [label, totals] : grouped.totals()) {
     const grade::AnswerCount& a = totals.answers;
     table.add({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),

@@ -16,8 +16,8 @@ namespace touchstone::check {
 namespace {
 
 base::Table summary_table(const GroupedCounts& grouped) {
-  base::Table table({"", "answers", "silent", "margin", "near", "width", "honest", "unsaid", "lost",
-                     "gap", "deep", "shallow", "stuck", "bounds", "flips", "beyond"});
+  base::Table table({"", "answers", "silent", "margin", "touching", "width", "gave up", "no status",
+                     "failed", "gap", "deep", "shallow", "stuck", "bounds", "flips", "beyond"});
   for (const auto& [label, totals] : grouped.totals()) {
     const grade::AnswerCount& a = totals.answers;
     table.add({grouped.name(label), count(a.answers), count(a.silent), digits(a.margin),
@@ -33,10 +33,13 @@ base::Table summary_table(const GroupedCounts& grouped) {
 constexpr std::size_t shown_lines = 30;  // lines shown of faults of ours
 
 constexpr std::string_view summary_key =
-    "silent: on the wrong side of contact, with a status that does not tell; margin: the greatest\n"
-    "exact |signed distance| of those; near: answers `touching` within bounds on the signed\n"
-    "distance, which are right if these hold; width: the greatest distance of the bounds; honest:\n"
-    "failures that were told; unsaid: answers whose status says nothing; lost: crashed or hung;\n"
+    "silent: on the wrong side of contact, with status `ok` or none; margin: the greatest exact\n"
+    "|signed distance| of those; touching: answers `touching` within bounds on the signed "
+    "distance,\n"
+    "which are right if these hold; width: the greatest distance of the bounds; gave up: the "
+    "status\n"
+    "says so, or there is no answer; no status: answers without a status; failed: crashed or "
+    "hung;\n"
     "gap, deep, shallow: the greatest errors of distance and depth; stuck: by how far the\n"
     "reported translation does not separate; bounds: certified bounds that miss the exact value;\n"
     "flips: other answers to the same pair in another form; beyond: ours, beyond the documented\n"

@@ -120,7 +120,7 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   visit("answers", a.answers, "Pairs that it takes and was asked about.");
   visit("silent", a.silent, "Silent errors, against what it was given.");
   visit("silent_end", a.silent_end, "Silent errors, against the case.");
-  visit("honest", a.honest, "Failures that it reports.");
+  visit("honest", a.honest, "Gave up: the status says so, or there is no answer.");
   visit("not_reported", a.not_reported, "Answers whose status says nothing.");
   visit("crashed", a.crashed, "Queries that crashed.");
   visit("timed_out", a.timed_out, "Queries that gave no answer in time.");

@@ -1,4 +1,5 @@
-// touchstone advise: finds the cheapest configuration whose error on a scene is within a budget.
+// touchstone advise: finds the cheapest configuration whose error on a scene is within a budget, or
+// with --front those that no other beats.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -21,15 +22,15 @@ struct AdviseOptions {
   trade::TradeRequest request;
   trade::ErrorBudget budget;
   std::string scene, list, out, error;
-  bool verify = false;
+  bool verify = false, front = false, motion = false, plain = false;
   int draws = 3;
 };
 
 void say(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
-// Advises on one scene. Returns the exit status.
+// Advises on one scene. Returns the exit status, and adds what it prints to `said`.
 int advise(const trade::AdviceTask& task, const std::filesystem::path& folder, int draws,
-           trade::VerificationRows* rows) {
+           trade::VerificationRows* rows, std::string& said) {
   const trade::Representing ours = representing();
   trade::TradeScene scene(task.request, ours);
   files::expect_other_files(scene.scene.inputs(),
@@ -38,17 +39,22 @@ int advise(const trade::AdviceTask& task, const std::filesystem::path& folder, i
   const trade::AdviceProblem problem{task.request, scene, ours, task.budget, say};
   const trade::Advice advice = trade::advise(problem);
   trade::write_advice(advice, problem, folder);
-  fmt::print("{}", trade::advice_text(advice, problem));
+  const auto print = [&](const std::string& text) {
+    fmt::print("{}", text);
+    said += text;
+  };
+  print(trade::advice_text(advice, problem));
   if (!advice.best) {
     if (rows != nullptr) rows->write(problem, nullptr);
     return exit_measured_wrong;
   }
-  fmt::print("\n{}: `touchstone run` measures it again\n", (folder / "advice.toml").string());
+  print(
+      fmt::format("\n{}: `touchstone run` measures it again\n", (folder / "advice.toml").string()));
   if (rows == nullptr) return exit_done;
   const trade::Verification verification = trade::verify(
       problem, advice.best->point.configuration, trade::advice_draws + 1, draws, folder / "grid");
   rows->write(problem, &verification);
-  fmt::print("\n{}", trade::verification_text(verification));
+  print("\n" + trade::verification_text(verification));
   return verification.holds() ? exit_done : exit_measured_wrong;
 }
 
@@ -75,17 +81,29 @@ int advise(AdviseOptions& options) {
   std::optional<trade::VerificationRows> rows;
   if (options.verify) rows.emplace(folder, options.draws);
   int status = exit_done;
+  std::string said;
   for (const trade::AdviceTask& task : tasks) {
     const int found = advise(task, options.list.empty() ? folder : folder / task.name,
-                             options.draws, rows ? &*rows : nullptr);
+                             options.draws, rows ? &*rows : nullptr, said);
     if (found != exit_done) status = found;
     if (tasks.size() > 1) fmt::print("\n");
+    if (tasks.size() > 1) said += "\n";
   }
+  keep_summary(folder, said);
   if (rows) {
     rows->close();
     fmt::print("\n{}: a row for each scene\n", (folder / "verification.csv").string());
   }
   return status;
+}
+
+int run_front(const AdviseOptions& options) {
+  return run_front(FrontOptions{.request = options.request,
+                                .scene = options.scene,
+                                .out = options.out,
+                                .error = options.error,
+                                .plain = options.plain,
+                                .motion = options.motion});
 }
 
 }  // namespace
@@ -109,19 +127,33 @@ void add_advise(Arguments command) {
       .within(1, 100)
       .needs(verify)
       .show_default();
+  Option front =
+      command.flag("--front", options->front,
+                   "Measure every configuration instead, and draw those that no other beats in "
+                   "both time and error: the Pareto front");
+  command.flag("--no-figure", options->plain, "Leave the figure of the front out").needs(front);
+  command
+      .flag("--motion", options->motion,
+            "Compare substeps of narrow phases with casts, on bodies that move within a frame")
+      .needs(front);
   command.text("--out", options->out,
-               "Folder for advice.toml (default: results/local/trade-NAME-advice in the project)");
+               "Folder (default: results/local/trade-NAME-advice in the project; with --front "
+               "trade-NAME)");
   add_trade_axes(command, options->request);
   list.excludes(scene);
   for (const char* name :
        {"--max-error", "--no-false-negatives", "--error", "--task", "--count", "--seed"}) {
     list.excludes(command.option(name));
   }
+  front.excludes(list);
+  for (const char* name : {"--max-error", "--no-false-negatives", "--verify", "--seeds"}) {
+    front.excludes(command.option(name));
+  }
   command.job([options, scene, list] {
     if (!scene.given() && !list.given()) {
       throw base::InputError("advise: no scene; expected a scene file, or --list FILE");
     }
-    return advise(*options);
+    return options->front ? run_front(*options) : advise(*options);
   });
 }
 

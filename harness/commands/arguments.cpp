@@ -255,13 +255,23 @@ void Arguments::exclude_others(const std::string& name, const std::vector<std::s
 void Arguments::footer(const std::string& text) { app_->footer(text); }
 
 std::string Arguments::shell_line(std::string_view left_out) const {
-  std::string line = "touchstone " + app_->get_name();
+  std::string line = app_->get_name();
+  for (const CLI::App* app = app_->get_parent(); app != nullptr; app = app->get_parent()) {
+    line = app->get_name() + " " + line;
+  }
   for (const CLI::Option* option : app_->get_options()) {
     if (option->count() == 0 || option->get_name() == left_out) continue;
     if (!option->get_positional()) line += " " + option->get_name();
-    if (option->get_expected_max() > 0) line += " " + base::shell_word(join(option->results()));
+    const std::string value = join(option->results());
+    const bool is_bare = value.empty() && option->get_expected_min() == 0;
+    if (option->get_expected_max() > 0 && !is_bare) line += " " + base::shell_word(value);
   }
   return line;
+}
+
+Arguments Arguments::nested(const std::string& name, const std::string& about) {
+  app_->require_subcommand(1);
+  return {app_->add_subcommand(name, about)->group("Commands"), status_};
 }
 
 void Arguments::job(std::function<int()> work) {
@@ -295,11 +305,14 @@ int CommandLine::run(const std::vector<std::string>& words) {
     return status_;
   } catch (const CLI::ParseError& error) {
     const bool help = error.get_exit_code() == 0;
-    if (help || !app_->get_subcommands().empty()) {
+    // The command that the words lead to.
+    const CLI::App* at = app_.get();
+    while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
+    if (help || at->get_subcommands({}).empty()) {
       return app_->exit(error) == 0 ? exit_done : exit_bad_request;
     }
     std::fprintf(stderr, "touchstone: %s\nExpected a command, one of:", error.what());
-    for (const CLI::App* command : app_->get_subcommands({})) {
+    for (const CLI::App* command : at->get_subcommands({})) {
       std::fprintf(stderr, " %s", command->get_name().c_str());
     }
     std::fputs(". Run with --help for more information.\n", stderr);

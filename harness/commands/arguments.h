@@ -101,6 +101,9 @@ class Arguments {
   // Returns a shell line that gives this command the same options, except those that are left out.
   std::string shell_line(std::string_view left_out) const;
 
+  // Adds a command within this one, which is then nothing without one of them.
+  Arguments nested(const std::string& name, const std::string& about);
+
   // Sets the work that follows after all options are read; it returns the program's exit status.
   void job(std::function<int()> work);
   // Sets work that runs before every command.

@@ -1,29 +1,55 @@
-// touchstone check: grades every algorithm against exact answers.
+// touchstone check: grades every algorithm against exact answers, on hard cases, along axes to its
+// limits, or by the million.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
+#include "harness/check/axes/stress_run.h"
 #include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
 #include "harness/check/requests/select_cases.h"
+#include "harness/check/soak/soak.h"
+#include "harness/check/soak/soak_text.h"
 #include "harness/commands/arguments.h"
-#include "harness/commands/case_selection.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/pictures/figures.h"
 #include "harness/commands/shared_options.h"
-#include "harness/files/csv.h"
 #include "harness/files/text_file.h"
 
 namespace touchstone::commands {
 namespace {
 
+constexpr int quick_cases = 4;
+constexpr int most_cases_of_axes = 100'000;
+
 struct CheckOptions {
   check::CaseSelection selection;
-  std::string out, page, certificates, saved;
-  check::CheckRequest request;
+  std::string axes, out, page, certificates, saved;
+  check::CheckRequest common;  // what is the same with and without --axes and --count
+  std::optional<int> cases;
+  std::optional<double> time_limit;
+  std::int64_t count = check::SoakRequest{}.pairs;
+  bool quick = false;
 };
+
+template <class Request>
+Request request_of(const CheckOptions& options) {
+  Request request;
+  request.scalars = options.common.scalars;
+  request.seed = options.common.seed;
+  request.seconds = options.common.seconds;
+  request.workers = options.common.workers;
+  request.resume = options.common.resume;
+  if (options.cases) request.cases = *options.cases;
+  if (options.time_limit) request.time_limit = *options.time_limit;
+  return request;
+}
 
 int verify(const std::string& file) {
   check::CertificateVerdicts verdicts;
@@ -42,9 +68,9 @@ int verify(const std::string& file) {
   return verdicts.refused_count == 0 ? exit_done : exit_measured_wrong;
 }
 
-int check(CheckOptions& options, const std::string& command) {
+int check_cases(const CheckOptions& options, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
-  check::CheckRequest& request = options.request;
+  auto request = request_of<check::CheckRequest>(options);
   check::select_cases(options.selection, "all", request);
   request.out = results_folder(options.out, "check");
   if (!options.page.empty()) files::check_output(options.page);
@@ -56,39 +82,171 @@ int check(CheckOptions& options, const std::string& command) {
   }
   const std::unique_ptr<check::CheckResult> result = check::run_check(request);
   if (result->interrupted) return end_interrupted();
-  fmt::print("{}", check::summary_text(result->report, base::page_width()));
-  fmt::print("\nRows in grades.csv and families.csv of {}; case files of what is wrong in {}\n",
-             request.out.string(), (request.out / "failures").string());
+  print_summary(
+      request.out,
+      fmt::format(
+          "{}\nRows in grades.csv and families.csv of {}; case files of what is wrong in {}\n",
+          check::summary_text(result->report, base::page_width()), request.out.string(),
+          (request.out / "failures").string()));
   if (!options.page.empty())
     files::write_text(options.page, check::page_text(result->report, command));
   return result->report.ours_wrong().empty() ? exit_done : exit_measured_wrong;
+}
+
+void write_axes_page(const CheckOptions& options, const check::StressRequest& request,
+                     const check::StressResult& result, const std::string& command, bool drawn) {
+  const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
+  const std::string pictures =
+      std::filesystem::absolute(request.out / "figures").lexically_relative(folder).string();
+  files::write_text(options.page,
+                    check::stress_page(request, result, command, drawn ? pictures : ""));
+}
+
+int check_axes(const CheckOptions& options, const std::string& command) {
+  auto request = request_of<check::StressRequest>(options);
+  check::select_axes_and_algorithms(options.selection, options.axes, request);
+  if (options.quick) request.cases = quick_cases;
+  if (request.cases > most_cases_of_axes) {
+    throw base::InputError(fmt::format("--cases: found {}; expected at most {} with --axes",
+                                       request.cases, most_cases_of_axes));
+  }
+  request.out = results_folder(options.out, "stress");
+  if (!options.page.empty()) {
+    // The page may be in the folder that the sweep is about to make.
+    std::error_code ignored;
+    std::filesystem::create_directories(request.out, ignored);
+    files::check_output(options.page);
+  }
+  const check::StressResult result = check::run_stress(request);
+  if (result.interrupted) return end_interrupted();
+  print_summary(request.out, fmt::format("{}\nRows in {}; case files of what is wrong in {}\n",
+                                         check::stress_text(request, result, base::page_width()),
+                                         (request.out / "stress.csv").string(),
+                                         (request.out / "failures").string()));
+  const std::filesystem::path log = request.out / "figures.txt";
+  const Drawing maps = draw_figures("stress.py", {request.out.string()}, log);
+  if (maps == Drawing::no_matplotlib) {
+    fmt::print(
+        "The maps are not drawn: that takes Python 3 with matplotlib "
+        "(Debian: python3-matplotlib)\n");
+  } else if (maps == Drawing::failed) {
+    fmt::print("The maps could not be drawn; {} says why\n", log.string());
+  }
+  if (!options.page.empty())
+    write_axes_page(options, request, result, command, maps == Drawing::drawn);
+  return result.broken.empty() ? exit_done : exit_measured_wrong;
+}
+
+int check_count(CheckOptions& options) {
+  auto request = request_of<check::SoakRequest>(options);
+  request.pairs = options.count;
+  if (options.selection.is_unsaid()) options.selection.pair = "certified";
+  check::select_cases(options.selection, "none", request);
+  if (request.period() == 0) {
+    throw base::InputError(
+        "--count has no cases for these algorithms; expected some of another kind than box");
+  }
+  request.out = results_folder(options.out, "soak");
+  const check::SoakResult result = check::run_soak(request);
+  if (result.interrupted) return end_interrupted();
+  print_summary(request.out, fmt::format("{}\nBy regime: {}\n",
+                                         check::soak_text(request, result, base::page_width()),
+                                         (request.out / "soak.csv").string()));
+  return result.ours_are_wrong(request) ? exit_measured_wrong : exit_done;
+}
+
+// Adds an option for each kind by its old name.
+void add_older_spellings(Arguments& command, check::CaseSelection& selection) {
+  const auto add = [&](std::string_view option, std::string& list, std::string_view kind) {
+    command
+        .text("--" + std::string(option), list,
+              fmt::format("The same as --with for the kind {} alone", kind))
+        .group("Older spellings");
+  };
+  add("narrow", selection.pair, "pair");
+  add("broad", selection.box, "box");
+  for (const kinds::Kind* kind : kinds::kinds()) {
+    add(kind->old_name(), selection.others[kind], kind->name());
+  }
 }
 
 }  // namespace
 
 void add_check(Arguments command) {
   const auto options = std::make_shared<CheckOptions>();
-  check::CheckRequest& request = options->request;
-  add_case_options(command, request, options->selection.pair, options->out, "check", "check");
-  command.text("--broad", options->selection.box, "Broad phases: names, all, ours, peers, none");
-  add_selection(command, options->selection);
-  command.number("--cases", request.cases, "Cases of each regime or family in a round")
-      .within(1, 1'000'000)
-      .show_default();
+  check::CheckRequest& common = options->common;
+  Option axes = command
+                    .text("--axes", options->axes,
+                          "Drive one property of a case at a time to its extreme, and find where "
+                          "each algorithm breaks. Axes: all, or names joined by commas")
+                    .value_optional();
+  Option count =
+      command
+          .number("--count", options->count,
+                  "Count the verdicts of so many cases, spread over the regimes and families, a "
+                  "thousand of one at a time; of `certified` if no algorithm is named")
+          .within(1, 1'000'000'000'000)
+          .show_default()
+          .value_optional();
+  command.text("--with", options->selection.with,
+               "Algorithms of all kinds: names, all, ours, libraries, oracle, none");
+  command.text("--kind", options->selection.kinds,
+               "Only these kinds: pair, box, mesh, ray, point, cast, feature, scene-ray");
+  command.text("--regimes", options->selection.regimes,
+               "Regimes and families of cases: names joined by commas (default: all)");
+  command.text("--group,--groups", options->selection.groups, "Groups of these, joined by commas");
+  command.some_of("--scalar", common.scalars, scalar_choices(),
+                  "What is calculated in (default: both)");
+  command.number("--seed", common.seed, "The seed of the cases").show_default();
+  const Option cases =
+      command
+          .number("--cases", options->cases,
+                  "Cases of each regime or family in a round (default: 200); with --axes of each "
+                  "value (default: 48; of large hulls at most 12)")
+          .within(1, 1'000'000);
   command
-      .number("--seconds,--long", request.seconds,
+      .flag("--quick", options->quick,
+            fmt::format("With --axes the same as --cases {}, for a first look", quick_cases))
+      .needs(axes)
+      .excludes(cases);
+  command
+      .number("--seconds,--long", common.seconds,
               "Go on for this long, round after round (default: one round)")
       .positive();
+  command.number("--threads", common.workers, "Processes that share the work")
+      .within(1, 256)
+      .show_default();
+  command
+      .number("--time-limit", options->time_limit,
+              "Seconds that a query may take (default: 10; with --axes 0.5)")
+      .positive();
+  command.text("--out", options->out,
+               "Folder for the results (default: results/local/check in the project; with --axes "
+               "stress, with --count soak)");
+  command.flag("--resume", common.resume, "Go on with the work in this folder");
   const Option page =
-      command.text("--page", options->page, "Also write the table as a Markdown page");
+      command.text("--page", options->page, "Also write the tables as a Markdown page");
   command
       .text("--save-certificates", options->saved,
             "Only prove the exact answers of the cases, and write the proofs to this file")
       .excludes(page)
       .excludes(command.option("--resume"));
   command.text("--certificates", options->certificates, "Only verify the proofs in this file");
+  add_older_spellings(command, options->selection);
   command.exclude_others("--certificates");
-  command.job([options, command] { return check(*options, command.shell_line("--out")); });
+  axes.excludes(count);
+  for (const char* name :
+       {"--regimes", "--groups", "--seconds", "--save-certificates", "--broad"}) {
+    axes.excludes(command.option(name));
+  }
+  for (const char* name : {"--cases", "--seconds", "--page", "--save-certificates", "--broad"}) {
+    count.excludes(command.option(name));
+  }
+  command.job([options, command, axes, count] {
+    if (axes.given()) return check_axes(*options, command.shell_line("--resume"));
+    if (count.given()) return check_count(*options);
+    return check_cases(*options, command.shell_line("--out"));
+  });
 }
 
 }  // namespace touchstone::commands

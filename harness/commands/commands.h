@@ -13,11 +13,12 @@ enum ExitStatus : int {
   exit_undecided = 3,       // `compare` alone: the samples are too few or too noisy
 };
 
-// add_NAME for each command of either executable.
+// add_NAME for each command of either executable, and add_NAME_WORD for those within one.
 #define TOUCHSTONE_COMMAND(program, name, ...) TOUCHSTONE_DECLARE_##program(name)
 #define TOUCHSTONE_DECLARE_touchstone(name) void add_##name(Arguments command);
 #define TOUCHSTONE_DECLARE_touchstone_more(name) void add_##name(Arguments command);
 #define TOUCHSTONE_DECLARE_launcher(name)
+#define TOUCHSTONE_NESTED(command, name, ...) void add_##command##_##name(Arguments arguments);
 #include "harness/commands/commands.inl"
 #undef TOUCHSTONE_DECLARE_touchstone
 #undef TOUCHSTONE_DECLARE_touchstone_more

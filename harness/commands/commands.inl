@@ -10,8 +10,13 @@
 // TOUCHSTONE_MORE_OPTION(name, "--option"), TOUCHSTONE_MORE_KEY(name, "key")
 //   A command of `touchstone` that `touchstone_more` must do, or help with, where it is given this
 //   option, or a file with this key at its top.
+// TOUCHSTONE_NESTED(name, word, "what it takes", "one line about it")
+//   A command within a command of `touchstone_more`, which has a function add_NAME_WORD.
 // TOUCHSTONE_RENAMED(old name, "what to write instead, behind the name of the program")
-//   The old name is refused with this text.
+//   The old name is refused with this text. The user's words take the place of `...`; an option of
+//   the text is left out where they have it.
+// TOUCHSTONE_RENAMED_OPTION(old name, "--old --new")
+//   Among these words, the second option takes the place of the first.
 #ifndef TOUCHSTONE_COMMAND
 #define TOUCHSTONE_COMMAND(program, name, takes, heading, about)
 #endif
@@ -24,8 +29,14 @@
 #ifndef TOUCHSTONE_MORE_KEY
 #define TOUCHSTONE_MORE_KEY(name, key)
 #endif
+#ifndef TOUCHSTONE_NESTED
+#define TOUCHSTONE_NESTED(command, name, takes, about)
+#endif
 #ifndef TOUCHSTONE_RENAMED
 #define TOUCHSTONE_RENAMED(name, line)
+#endif
+#ifndef TOUCHSTONE_RENAMED_OPTION
+#define TOUCHSTONE_RENAMED_OPTION(name, options)
 #endif
 // clang-format off
 
@@ -40,41 +51,59 @@ TOUCHSTONE_MORE_KEY(run, "soak")
 TOUCHSTONE_MORE_KEY(run, "cells")
 TOUCHSTONE_COMMAND(touchstone, compare, "OLD NEW", "Measure", "Compare two results, or two builds of this program: is B slower than A?")
 TOUCHSTONE_FILES(compare, "compare")
-TOUCHSTONE_COMMAND(touchstone_more, trade, "SCENE", "Measure", "Speed against accuracy on a scene: every configuration, and the Pareto front")
-TOUCHSTONE_COMMAND(touchstone_more, advise, "SCENE --max-error E", "Measure", "The cheapest configuration for a scene that is right enough, by measuring")
+TOUCHSTONE_COMMAND(touchstone_more, advise, "SCENE --max-error E", "Measure", "The cheapest configuration for a scene that is right enough, or the Pareto front of all")
 TOUCHSTONE_COMMAND(launcher, bench, "[OPTIONS OF GOOGLE BENCHMARK]", "Measure", "Time single kernels, or count their instructions")
 
-TOUCHSTONE_COMMAND(touchstone_more, check, "", "Check", "Grade every algorithm against exact answers, in regimes that are hard")
-TOUCHSTONE_COMMAND(touchstone_more, stress, "", "Check", "Drive every narrow phase to where it breaks: scale, proportions, distance, gap, ...")
-TOUCHSTONE_COMMAND(touchstone_more, soak, "", "Check", "Count verdicts by the million against exact ones, in regimes that are hard")
-TOUCHSTONE_COMMAND(launcher, test, "[OPTIONS OF CTEST]", "Check", "Build and run every test")
+TOUCHSTONE_COMMAND(touchstone_more, check, "", "Check", "Grade every algorithm against exact answers: on hard cases, to its limits, by the million")
+TOUCHSTONE_COMMAND(touchstone, reproduce, "[REFERENCE]", "Check", "Measure the reference results again, and compare its tables")
+TOUCHSTONE_FILES(reproduce, "reproduce")
+TOUCHSTONE_COMMAND(launcher, test, "[ROOM] [OPTIONS OF CTEST]", "Check", "Build and run every test, or those of one room such as harness/stats")
 
 TOUCHSTONE_COMMAND(touchstone_more, query, "FILE", "Ask", "Ask algorithms the questions of a file: pairs, boxes, rays, points, moving bodies")
-TOUCHSTONE_RENAMED(pairs, "query BOXES.csv --with NAMES")
+TOUCHSTONE_RENAMED(pairs, "query ...")
 TOUCHSTONE_RENAMED(rays, "query RAYS.csv --in MESH --with NAMES")
 TOUCHSTONE_RENAMED(points, "query POINTS.csv --in MESH --with NAMES")
-TOUCHSTONE_RENAMED(cast, "query CASES.jsonl --kind cast --with NAMES")
-TOUCHSTONE_RENAMED(ccd, "query QUERIES.csv --kind feature --features vertex-face --with NAMES")
-TOUCHSTONE_RENAMED(manifold, "query CASES.jsonl --kind manifold --with NAMES")
+TOUCHSTONE_RENAMED(cast, "query --kind cast ...")
+TOUCHSTONE_RENAMED(ccd, "query --kind=feature ...")
+TOUCHSTONE_RENAMED_OPTION(ccd, "--kind --features")
+TOUCHSTONE_RENAMED(manifold, "query --kind manifold ...")
 
-TOUCHSTONE_COMMAND(touchstone, tables, "[RESULTS]", "Show", "Write the tables of a results folder, or see whether those of a reference hold here")
-TOUCHSTONE_FILES(tables, "tables")
-TOUCHSTONE_COMMAND(launcher, plot, "RESULTS", "Show", "Draw figures of a results folder, as SVG, PDF and PNG")
+TOUCHSTONE_COMMAND(touchstone, show, "RESULTS", "Show", "Print the summary of a results folder again; write its tables, draw its figures")
+TOUCHSTONE_FILES(show, "show")
 TOUCHSTONE_COMMAND(touchstone_more, report, "RESULTS...", "Show", "Make a page of results and scenes that opens in a browser")
 TOUCHSTONE_COMMAND(touchstone, list, "", "Show", "List the algorithms, built or not")
 TOUCHSTONE_FILES(list, "list")
 
-TOUCHSTONE_COMMAND(touchstone_more, draw, "SCENE", "Scenes and clusters", "Draw a frame of a scene as a PNG")
-TOUCHSTONE_COMMAND(touchstone_more, record, "SCENE", "Scenes and clusters", "Write a scene's boxes as a recording")
-TOUCHSTONE_COMMAND(touchstone_more, represent, "SCENE", "Scenes and clusters", "What stands for a scene's bodies, from ball to mesh, and how far off it is")
-TOUCHSTONE_COMMAND(touchstone_more, plan, "FILE --shards N --out DIR", "Scenes and clusters", "Cut a campaign, a check or a soak into shards for many machines")
-TOUCHSTONE_COMMAND(touchstone_more, status, "DIR", "Scenes and clusters", "How far the shards of a plan are, and which failed")
-TOUCHSTONE_COMMAND(touchstone_more, merge, "DIR --out RESULTS", "Scenes and clusters", "Join the shards of a plan")
+TOUCHSTONE_COMMAND(touchstone_more, scene, "draw|record|represent|describe|hash SCENE", "Scenes and clusters", "Draw, record, represent or describe a scene, or print its hash")
+TOUCHSTONE_NESTED(scene, draw, "SCENE --out PICTURE.png", "Draw a frame of a scene as a PNG")
+TOUCHSTONE_NESTED(scene, record, "SCENE --out BOXES.aabbs", "Write a scene's boxes as a recording")
+TOUCHSTONE_NESTED(scene, represent, "SCENE --out ERRORS.csv", "Put proxies, from ball to mesh, in place of bodies, and measure their errors")
+TOUCHSTONE_NESTED(scene, describe, "SCENE", "Print bodies, kinds, sizes, overlaps a body, and the share of boxes that move")
+TOUCHSTONE_NESTED(scene, hash, "SCENE", "Print the hash of a scene: the same bodies and motion have the same")
+TOUCHSTONE_COMMAND(touchstone_more, shards, "plan|status|merge ...", "Scenes and clusters", "Cut work into shards for many machines, and join them")
+TOUCHSTONE_NESTED(shards, plan, "FILE --shards N --out DIR", "Cut a campaign, a trade or a check into shards")
+TOUCHSTONE_NESTED(shards, status, "DIR", "How far the shards of a plan are, and which failed")
+TOUCHSTONE_NESTED(shards, merge, "DIR --out RESULTS", "Join the shards of a plan")
 TOUCHSTONE_COMMAND(launcher, setup, "[--tests]", "Scenes and clusters", "Install the packages that are missing, and build nothing")
+
+TOUCHSTONE_RENAMED(stress, "check --axes ...")
+TOUCHSTONE_RENAMED(soak, "check --count ...")
+TOUCHSTONE_RENAMED_OPTION(soak, "--pairs --count")
+TOUCHSTONE_RENAMED(trade, "advise ... --front")
+TOUCHSTONE_RENAMED(tables, "show RESULTS --tables`; without RESULTS or with --check it is `reproduce")
+TOUCHSTONE_RENAMED(plot, "show ... --figures")
+TOUCHSTONE_RENAMED(draw, "scene draw ...")
+TOUCHSTONE_RENAMED(record, "scene record ...")
+TOUCHSTONE_RENAMED(represent, "scene represent ...")
+TOUCHSTONE_RENAMED(plan, "shards plan ...")
+TOUCHSTONE_RENAMED(status, "shards status ...")
+TOUCHSTONE_RENAMED(merge, "shards merge ...")
 
 // clang-format on
 #undef TOUCHSTONE_COMMAND
 #undef TOUCHSTONE_FILES
 #undef TOUCHSTONE_MORE_OPTION
 #undef TOUCHSTONE_MORE_KEY
+#undef TOUCHSTONE_NESTED
 #undef TOUCHSTONE_RENAMED
+#undef TOUCHSTONE_RENAMED_OPTION

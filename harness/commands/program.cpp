@@ -14,12 +14,14 @@
 #include <fstream>
 #include <iterator>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "algorithms/core/isa.h"
 #include "harness/base/error.h"
+#include "harness/base/shell_word.h"
 #include "harness/commands/commands.h"
 #include "harness/process/standard_output.h"
 #include "harness/record/machine.h"
@@ -41,12 +43,50 @@ bool is_command(std::string_view word) {
   return row != all_commands.end() && row->program != "launcher";
 }
 
-// Returns what to write instead of a command that was renamed, or an empty text.
+// Returns what to write instead of a command that was renamed, as its row has it, or an empty text.
 std::string_view new_name([[maybe_unused]] std::string_view word) {
 #define TOUCHSTONE_RENAMED(name, line) \
   if (word == #name) return line;
 #include "harness/commands/commands.inl"
   return {};
+}
+
+std::vector<std::string> words_in(std::string_view text) {
+  std::istringstream stream{std::string(text)};
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+// Returns whether the word is this option, alone or with its value.
+bool is_option(std::string_view word, std::string_view option) {
+  return word == option || (word.starts_with(option) && word.substr(option.size())[0] == '=');
+}
+
+// Returns the line to write instead of a renamed command and the words behind it.
+std::string new_line(std::string_view name, std::vector<std::string> words) {
+  const std::string_view row = new_name(name);
+  if (row.find("...") == std::string_view::npos) return std::string(row);
+  for (std::string& word : words) {
+    const auto rename = [&](std::string_view options) {
+      const std::vector<std::string> names = words_in(options);
+      if (is_option(word, names[0])) word.replace(0, names[0].size(), names[1]);
+    };
+#define TOUCHSTONE_RENAMED_OPTION(old_name, options) \
+  if (name == #old_name) rename(options);
+#include "harness/commands/commands.inl"
+  }
+  std::string line;
+  const auto add = [&](const std::string& word) { line += (line.empty() ? "" : " ") + word; };
+  for (const std::string& part : words_in(row)) {
+    if (part == "...") {
+      for (const std::string& word : words) add(base::shell_word(word));
+      continue;
+    }
+    const bool is_given =
+        part.starts_with("--") &&
+        std::ranges::any_of(words, [&](const auto& word) { return is_option(word, part); });
+    if (!is_given) add(part);
+  }
+  return line;
 }
 
 // Removes the word that names the build of the program that runs this one, and compares the two.
@@ -73,8 +113,8 @@ int run_command(std::vector<std::string> words, std::initializer_list<OwnCommand
       words, [](const std::string& word) { return is_command(word) || !new_name(word).empty(); });
   if (command != words.end()) {
     if (!is_command(*command)) {
-      throw base::InputError(
-          fmt::format("`{}` is now `touchstone {}`", *command, new_name(*command)));
+      throw base::InputError(fmt::format("`{}` is now `touchstone {}`", *command,
+                                         new_line(*command, {std::next(command), words.end()})));
     }
     if (own_command(*command) == own.end()) hand_over();
   }

@@ -43,6 +43,7 @@ struct RunOptions {
   int batch = measure::usual_batch;
   // These options decide how the campaign is measured.
   bool resume = false, overwrite = false, strict = false, noisy = false, dry_run = false;
+  bool quick = false;
   bool tables = false, with_page = false;
   bool threads_given = false;
   // These options do a shard of a plan instead.
@@ -63,7 +64,8 @@ campaign::Campaign campaign_of(const RunOptions& options) {
     throw base::InputError(fmt::format(
         "--scene {0}: its bodies move far within a frame, and this command asks what they do at "
         "the "
-        "frames alone; expected touchstone trade {0} --motion, or touchstone run with a file of "
+        "frames alone; expected touchstone advise {0} --front --motion, or touchstone run with a "
+        "file of "
         "[cells] of the kind motion, as datasets/campaigns/motion.toml",
         file));
   }
@@ -106,6 +108,16 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   return campaign;
 }
 
+// Leaves each group a small part of its time, for a first look. It has a folder of its own.
+void make_quick(campaign::Campaign& campaign) {
+  constexpr double quick_seconds = 1;  // for the samples of a block
+  campaign.name += "-quick";
+  for (campaign::CampaignGroup& group : campaign.groups) {
+    group.seconds = std::min(group.seconds, quick_seconds);
+    group.processes = 1;
+  }
+}
+
 // Prints what a run would measure, without measuring it.
 void print_plan(const campaign::Campaign& campaign) {
   double seconds = 0;
@@ -136,7 +148,8 @@ record::FolderStart start_of(const RunOptions& options) {
 
 // Runs another file than a campaign, which the other executable does.
 int run_other_file(const RunOptions& options) {
-  if (options.overwrite || options.strict || options.noisy || options.dry_run || options.tables) {
+  if (options.overwrite || options.strict || options.noisy || options.dry_run || options.tables ||
+      options.quick) {
     throw base::InputError(
         options.campaign +
         " is no campaign of [[group]]; expected no options but --out, --resume, --threads and "
@@ -167,7 +180,7 @@ void report(const campaign::Campaign& campaign, const campaign::RunResult& resul
     fmt::print("{}\n{}\n", report.tables, record::departures_text(result.findings));
     if (!report.published.empty()) fmt::print("{}\n", report.published);
   }
-  fmt::print("{}", report.summary);
+  print_summary(folder, report.summary);
 }
 
 int run(const RunOptions& options) {
@@ -177,7 +190,8 @@ int run(const RunOptions& options) {
     throw base::InputError(
         "--threads belongs to --scene or --plan; expected it in the campaign's file");
   }
-  const campaign::Campaign campaign = campaign_of(options);
+  campaign::Campaign campaign = campaign_of(options);
+  if (options.quick) make_quick(campaign);
   const std::filesystem::path folder = results_folder(options.out, campaign.name);
   if (options.dry_run) {
     print_plan(campaign);
@@ -218,6 +232,8 @@ void add_run(Arguments command) {
                "Make a page of the results, report.html in the folder");
   add_depth_error(command, options->depth_error);
   add_shard(command, options->plan, options->shard).excludes(campaign);
+  command.flag("--quick", options->quick,
+               "Spend at most a second on the samples of each block, for a first look");
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";

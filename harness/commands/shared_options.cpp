@@ -11,7 +11,9 @@
 #include "harness/base/error.h"
 #include "harness/base/file_name.h"
 #include "harness/commands/commands.h"
+#include "harness/files/text_file.h"
 #include "harness/record/build_info.h"
+#include "harness/record/own_files.h"
 
 namespace touchstone::commands {
 
@@ -100,6 +102,25 @@ std::filesystem::path results_folder(const std::string& out, const std::string& 
   if (!fault.empty()) throw base::InputError("the name of the work: " + fault);
   if (!out.empty()) return out;
   return std::filesystem::path(record::source_folder) / "results/local" / (prefix + name);
+}
+
+void keep_summary(const std::filesystem::path& folder, const std::string& text) {
+  const std::filesystem::path file = folder / summary_file;
+  std::error_code error;
+  record::OwnFiles own(folder);
+  if (std::filesystem::exists(std::filesystem::symlink_status(file, error)) &&
+      !own.has(std::string(summary_file))) {
+    fmt::print(stderr, "touchstone: {} is not of this program, and stays as it is\n",
+               file.string());
+    return;
+  }
+  files::write_text(file, text);
+  own.note({file});
+}
+
+void print_summary(const std::filesystem::path& folder, const std::string& text) {
+  fmt::print("{}", text);
+  keep_summary(folder, text);
 }
 
 int end_interrupted() {

@@ -37,28 +37,17 @@ Option add_depth_error(Arguments& command, double& error);
 Option add_threads(Arguments& command, int& threads, const std::string& help = "Threads");
 const Arguments::Choices<ExecutorKind>& executor_choices();
 
-// Adds the options of the commands that run narrow phases on generated cases in many processes.
-// `folder` is the results folder's default name, `work` is the subject that --resume continues.
-template <class Request>
-void add_case_options(Arguments& command, Request& request, std::string& narrow, std::string& out,
-                      const std::string& folder, const std::string& work) {
-  command.text("--narrow", narrow, "Narrow phases: names, all, ours, peers, none").show_default();
-  command.some_of("--scalar", request.scalars, scalar_choices(),
-                  "What is calculated in (default: both)");
-  command.number("--seed", request.seed, "The seed of the cases").show_default();
-  command.number("--threads", request.workers, "Processes that share the work")
-      .within(1, 256)
-      .show_default();
-  add_time_limit(command, request.time_limit).show_default();
-  command.text("--out", out,
-               "Folder for the results (default: results/local/" + folder + " in the project)");
-  command.flag("--resume", request.resume, "Go on with the " + work + " in this folder");
-}
-
 // Returns the folder `out`; if that is empty, results/local/PREFIXNAME in the project. Throws
 // InputError if the name cannot be that of a folder (base::name_fault).
 std::filesystem::path results_folder(const std::string& out, const std::string& name,
                                      const std::string& prefix = "");
+
+// The file in which a results folder keeps the text with which its work ended.
+inline constexpr std::string_view summary_file = "summary.txt";
+// Writes that file for `show`. A file of somebody else by that name stays.
+void keep_summary(const std::filesystem::path& folder, const std::string& text);
+// Prints the text, and keeps it.
+void print_summary(const std::filesystem::path& folder, const std::string& text);
 
 // Says that work which --resume continues was interrupted; returns the exit status.
 int end_interrupted();

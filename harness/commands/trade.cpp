@@ -1,4 +1,4 @@
-// touchstone trade: measures speed against accuracy on one scene.
+// touchstone advise --front: measures speed against accuracy on one scene.
 #include "harness/commands/trade.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/pictures/figures.h"
@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
@@ -19,12 +18,6 @@
 namespace touchstone::commands {
 namespace {
 
-struct TradeOptions {
-  trade::TradeRequest request;
-  std::string scene, out, error;
-  bool plain = false, motion = false;
-};
-
 void draw(const std::filesystem::path& folder) {
   const std::filesystem::path log = folder / "figure.txt";
   switch (draw_figures("trade.py", {folder.string(), "--out", folder.string()}, log)) {
@@ -35,13 +28,13 @@ void draw(const std::filesystem::path& folder) {
     case Drawing::no_matplotlib:
       fmt::print(stderr,
                  "touchstone: without matplotlib (Debian: python3-matplotlib) there is no figure; "
-                 "`touchstone plot {}` installs it and draws\n",
+                 "`touchstone show {} --figures` installs it and draws\n",
                  folder.string());
   }
 }
 
 // Measures discrete steps against continuous ones.
-int run_motion_trade(const TradeOptions& options) {
+int run_motion_trade(const FrontOptions& options) {
   const trade::TradeRequest& asked = options.request;
   if (asked.task != Task::intersect || !options.error.empty()) {
     throw base::InputError(
@@ -60,8 +53,8 @@ int run_motion_trade(const TradeOptions& options) {
                        [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   if (result.interrupted) return end_interrupted();
   stats::write_cell_tables(folder, trade.cells.name, folder);
-  fmt::print("{}\n", cells::write_motion_front(trade, folder));
-  fmt::print("{}: points.csv, front.csv, front.md, tables.md, raw.csv\n", folder.string());
+  print_summary(folder, fmt::format("{}\n{}: points.csv, front.csv, front.md, tables.md, raw.csv\n",
+                                    cells::write_motion_front(trade, folder), folder.string()));
   if (!options.plain) draw(folder);
   return result.ours_wrong ? exit_measured_wrong : exit_done;
 }
@@ -80,9 +73,11 @@ int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, 
   if (request.name.empty()) request.name = scene.scene.name;
   const trade::TradeResult result = trade::measure_trade(
       request, scene, folder, [](const std::string& text) { fmt::print(stderr, "{}\n", text); });
-  fmt::print("{}\n", trade::front_text(result, request, base::page_width()));
-  fmt::print("{}: points.csv, bins.csv, front.md, samples.csv; trade.toml measures it again\n",
-             folder.string());
+  print_summary(
+      folder,
+      fmt::format(
+          "{}\n{}: points.csv, bins.csv, front.md, samples.csv; trade.toml measures it again\n",
+          trade::front_text(result, request, base::page_width()), folder.string()));
   if (with_figure) draw(folder);
   return exit_done;
 }
@@ -110,25 +105,13 @@ void take_measure(const std::string& name, trade::TradeRequest& request) {
   }
 }
 
-void add_trade(Arguments command) {
-  auto options = std::make_shared<TradeOptions>();
-  command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").required();
-  command.text(
-      "--out", options->out,
-      "Folder for rows, front and figure (default: results/local/trade-NAME in the project)");
-  add_error_measure(command, options->error);
-  command.flag("--no-figure", options->plain, "Leave the figure out");
-  command.flag("--motion", options->motion,
-               "Compare substeps of narrow phases with casts, on bodies that move within a frame");
-  add_trade_axes(command, options->request);
-  command.job([options] {
-    trade::TradeRequest& request = options->request;
-    if (options->motion) return run_motion_trade(*options);
-    request.scene = options->scene;
-    request.name = request.scene.stem().string();
-    take_measure(options->error, request);
-    return run_trade(request, trade_folder(options->out, request.name), !options->plain);
-  });
+int run_front(const FrontOptions& options) {
+  if (options.motion) return run_motion_trade(options);
+  trade::TradeRequest request = options.request;
+  request.scene = options.scene;
+  request.name = request.scene.stem().string();
+  take_measure(options.error, request);
+  return run_trade(request, trade_folder(options.out, request.name), !options.plain);
 }
 
 }  // namespace touchstone::commands

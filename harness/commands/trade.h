@@ -21,6 +21,16 @@ std::filesystem::path trade_folder(const std::string& out, const std::string& na
 // Measures, writes, prints and draws. Returns the exit status.
 int run_trade(trade::TradeRequest request, const std::filesystem::path& folder, bool with_figure);
 
+// What `advise --front` is asked.
+struct FrontOptions {
+  trade::TradeRequest request;  // without scene, name and measure
+  std::string scene, out, error;
+  bool plain = false, motion = false;
+};
+
+// Measures speed against accuracy on the scene. Returns the exit status.
+int run_front(const FrontOptions& options);
+
 // Adds the options for the question, the scene and the time.
 void add_trade_axes(Arguments& command, trade::TradeRequest& request);
 // Adds --error, whose value take_measure reads.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "algorithms/algorithm_info.h"
+#include "algorithms/core/outcome.h"
 
 namespace touchstone::kinds {
 

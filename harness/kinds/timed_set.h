@@ -34,6 +34,8 @@ struct TimedContestant {
   std::function<void()> prepare = {};
   std::function<void()> answer;       // answers all queries; this is timed
   std::function<TimedGrade()> grade;  // judges the last answers
+  // Of the last answers: equal answers have equal hashes. It is not timed.
+  std::function<std::uint64_t()> hash;
 };
 
 // An algorithm that does not take all queries of a set.
@@ -57,6 +59,7 @@ struct PlannedSet {
   // Its rounds are those of the set before it, as where only threads differ, so that the ratio of both holds
   // whatever else the machine does meanwhile.
   bool joins_last = false;
+  int threads = 1;  // that each contestant may use
 };
 
 }  // namespace touchstone::kinds

@@ -19,6 +19,7 @@ std::string_view to_string(Phase phase) {
     case Phase::find_pairs: return "find_pairs";
     case Phase::narrow: return "narrow";
     case Phase::convert: return "convert";
+    case Phase::answer: return "answer";
   }
   return "?";
 }
@@ -51,6 +52,7 @@ std::string narrow_label(std::string_view name, std::string_view scalar, double 
 }
 
 std::string algorithm_label(const RawRow& row) {
+  if (row.is_of_set()) return row.algorithm;
   if (!row.is_narrow()) return row.broad;
   return narrow_label(row.narrow, row.scalar ? to_string(*row.scalar) : "", row.tolerance,
                       row.duality_gap, row.is_warm(), row.batch);

@@ -18,8 +18,8 @@
 namespace touchstone::record {
 
 // `convert` is the part of a peer's build or update that converts boxes to its own types, run once
-// more.
-enum class Phase : std::uint8_t { build, update, find_pairs, narrow, convert };
+// more. `answer` are all queries of a timed set (harness/kinds/timed_set.h).
+enum class Phase : std::uint8_t { build, update, find_pairs, narrow, convert, answer };
 std::string_view to_string(Phase phase);
 
 enum class RowKind : std::uint8_t {
@@ -57,7 +57,7 @@ struct RawRow {
   std::string scene, scene_hash;
   std::int64_t seed = -1;
   std::int64_t bodies = 0;
-  scene::BoxKind boxes = scene::BoxKind::tight;
+  std::optional<scene::BoxKind> boxes = scene::BoxKind::tight;  // empty in rows with a query kind
   std::int64_t frame = 0;
   std::int64_t frames = -1;
   std::string broad, narrow;
@@ -100,6 +100,9 @@ struct RawRow {
   std::optional<bool> depth_bound;
   std::int64_t part_pairs = -1;
   double worst_frame = Outcome::none;  // seconds
+  // Of a timed set alone: its kind, group and name, the algorithm, and how often a sample asked all queries.
+  std::string query_kind, input, family, algorithm;
+  std::int64_t repeats = -1;
 
   void take(const BroadPhaseWork& work);
 
@@ -107,6 +110,9 @@ struct RawRow {
   bool is_rebuilt() const { return rebuild.value_or(false); }
   bool is_warm() const { return warm.value_or(false); }
   bool is_narrow() const { return !narrow.empty(); }
+  bool is_of_set() const { return !query_kind.empty(); }
+  // What the seconds of a sample are divided by: frames of a broad phase, else queries.
+  std::int64_t units() const { return is_narrow() || is_of_set() ? pair_count : frames; }
   // Returns true if the algorithm crashed or was stopped, so that it has no further answers.
   bool lost() const { return status == RowStatus::crashed || status == RowStatus::timed_out; }
   bool wrong() const { return status == RowStatus::wrong; }
@@ -120,7 +126,8 @@ void columns(Row& row, Visit visit) {
         "reading and no sample. `sample`: a timed sample of a window of frames.");
   visit("block", row.block,
         "Number of the block, from 0 in the campaign's order. A block is a scene with its count, "
-        "seed, boxes, threads and instructions.");
+        "seed, boxes, threads and instructions; or a set of queries, with those that share its "
+        "rounds.");
   visit("scene", row.scene, "The scene's name.");
   visit("scene_hash", row.scene_hash,
         "16 hexadecimal digits over everything that the scene gives to the algorithms.");
@@ -178,8 +185,10 @@ void columns(Row& row, Visit visit) {
         "that build or update, done again (least of three times) and timed alone.");
   visit("seconds", row.seconds,
         "Wall-clock seconds, summed over the window. Conversion to a peer's types is included.");
-  visit("pair_count", row.pair_count,
-        "Number of pairs found (`find_pairs`) or asked about (`narrow`), summed over the window.");
+  visit(
+      "pair_count", row.pair_count,
+      "Number of pairs found (`find_pairs`) or asked about (`narrow`), summed over the window; of "
+      "queries (`answer`), summed over the repeats.");
   visit("pair_hash", row.pair_hash,
         "Hash of these pairs, independent of their order, summed over the window.");
   visit("contact_count", row.contact_count, "Number of queries answered touching or overlapping.");
@@ -239,7 +248,8 @@ void columns(Row& row, Visit visit) {
         "Disturbances of the round, joined by `+`: `pressure` (tasks waited for a processor), "
         "`steal` (by the hypervisor), `preempted`. `canary` in a set's last row: the baseline "
         "differed from its twin by more than the campaign's `width`. Empty: quiet, or unknown.");
-  visit("words", newer(row.words), "Last output of what crashed, or why it was not tried.");
+  visit("words", newer(row.words),
+        "Last output of what crashed, what was wrong, or why it was not tried.");
   visit("stop", newer(row.stop),
         "Last row of a set: why repetition ended. `width`: every interval is narrow enough; "
         "`budget`: of seconds; `rounds`: the greatest number; `crashed`.");
@@ -259,6 +269,16 @@ void columns(Row& row, Visit visit) {
   visit("worst_frame", newer(row.worst_frame),
         "Samples of a broad phase: seconds of the window's longest frame, its build or update and "
         "find_pairs together; in the sample's last row.");
+  visit("query_kind", newer(row.query_kind),
+        "The kind of query, such as `ray`, in rows of a campaign with [cells]; empty in those of "
+        "scenes. Such rows have no scene, bodies, boxes, frame, broad and narrow.");
+  visit("input", newer(row.input),
+        "What the queries are about, such as a mesh: `group` in set_times.csv.");
+  visit("family", newer(row.family), "The set of queries: `cell` in set_times.csv.");
+  visit("algorithm", newer(row.algorithm),
+        "Rows with `query_kind`: the algorithm, with the scalar where it has several.");
+  visit("repeats", newer(row.repeats),
+        "Rows with `query_kind`: how often all queries of the set were answered in the sample.");
 }
 
 // Returns a narrow phase with its settings, as the tables name it: "gjk double", "gjk double

@@ -112,7 +112,8 @@ bool has_machines(const fs::path& folder) { return fs::exists(folder / "across.c
 
 // A run leaves its rows alone; its tables are those that `tables` would write into the folder.
 void add_tables(const fs::path& folder, files::OrderedJson& shown, files::OrderedJson& notes) {
-  if (shown.contains("times.csv") || !fs::exists(files::row_file(folder / "raw.csv"))) return;
+  const bool has_tables = shown.contains("times.csv") || shown.contains("set_times.csv");
+  if (has_tables || !fs::exists(files::row_file(folder / "raw.csv"))) return;
   std::string name = (fs::temp_directory_path() / "touchstone-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw base::InputError(name + ": cannot be made");
   const std::shared_ptr<void> removed(nullptr, [&](void*) {
@@ -196,8 +197,8 @@ std::vector<fs::path> folders_with_tables(const fs::path& folder) {
   }
   if (folders.empty()) {
     throw base::InputError(folder.string() +
-                           ": no CSV file in it; expected a folder that run, check, stress, soak, "
-                           "trade or advise wrote");
+                           ": no CSV file in it; expected a folder that run, check or "
+                           "advise wrote");
   }
   std::ranges::sort(folders);
   return folders;

@@ -50,7 +50,7 @@ case ${1:-} in
     exit 0
     ;;
 esac
-[[ -r $here/plan.sh ]] || fail "there is no plan.sh beside it; expected the copy of this script that \`touchstone plan\` made"
+[[ -r $here/plan.sh ]] || fail "there is no plan.sh beside it; expected the copy of this script that \`touchstone shards plan\` made"
 # shellcheck source=/dev/null
 source "$here/plan.sh"
 [[ $PLAN -ef $here ]] || fail "the plan was made in $PLAN; expected it there, and not in $here"
@@ -93,7 +93,7 @@ for range in ${list//,/ }; do seq "$((10#${range%-*}))" "$((10#${range#*-}))"; d
 
 # The merge tells what is missing, if something is.
 status=0
-"$PROGRAM" merge "$PLAN" --out "$PLAN/results" || status=$?
+"$PROGRAM" shards merge "$PLAN" --out "$PLAN/results" || status=$?
 if ((status == 2)); then
   say "if shards are missing: $(printf '%q' "$PLAN/parallel.sh") takes their list too, and without it does all but those that it did"
 fi

@@ -217,7 +217,7 @@ ShardPlan read_plan(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::exists(folder / plan_file, error)) {
     throw base::InputError(folder.string(), 0,
-                           "holds no whole plan; expected a folder that `touchstone plan` made");
+                           "holds no whole plan; expected a folder that `touchstone shards plan` made");
   }
   ShardPlan plan;
   plan.folder = folder;
@@ -229,7 +229,7 @@ ShardPlan read_plan(const std::filesystem::path& folder) {
   if (plan.shards.empty() || id != plan.id) {
     throw base::InputError((folder / plan_file).string(), 0,
                            fmt::format("is of another plan than the files beside it ({}, and they "
-                                       "make {}); expected those that `touchstone plan` wrote",
+                                       "make {}); expected those that `touchstone shards plan` wrote",
                                        plan.id, id));
   }
   return plan;

@@ -43,7 +43,7 @@ job() {
   source "$1/plan.sh"
   [[ -x $PROGRAM ]] || fail "$(hostname) does not see $PROGRAM; expected the program in a folder that all nodes share"
   if [[ $2 == merge ]]; then
-    attend "$PROGRAM" merge "$PLAN" --out "$PLAN/results"
+    attend "$PROGRAM" shards merge "$PLAN" --out "$PLAN/results"
     return
   fi
   local log status=0
@@ -62,7 +62,7 @@ if [[ ${1:-} == --job ]]; then
 fi
 
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
-[[ -r $here/plan.sh ]] || fail "there is no plan.sh beside it; expected the copy of this script that \`touchstone plan\` made"
+[[ -r $here/plan.sh ]] || fail "there is no plan.sh beside it; expected the copy of this script that \`touchstone shards plan\` made"
 # shellcheck source=/dev/null
 source "$here/plan.sh"
 [[ $PLAN -ef $here ]] || fail "the plan was made in $PLAN; expected it there, and not in $here"
@@ -135,7 +135,7 @@ if [[ -n $refused ]]; then
   printf -v options ' %q' "$@"
   say "Slurm refused the shards $refused; its reason is above. To submit them later, when there is room:"
   say "  $(printf '%q' "$PLAN/slurm.sh") $refused${*:+$options}"
-  say "A part of this list will do too. When all shards are done: $(printf '%q merge %q' "$PROGRAM" "$PLAN")"
+  say "A part of this list will do too. When all shards are done: $(printf '%q shards merge %q' "$PROGRAM" "$PLAN")"
   exit 1
 fi
 
@@ -145,8 +145,8 @@ depends=afterany
 for job in "${jobs[@]}"; do depends+=:$job; done
 if ! job=$(sbatch "${by_merge[@]}" "$@" --parsable --dependency="$depends" "$PLAN/slurm.sh" --job "$PLAN" merge); then
   say "Slurm refused the job that joins the results; when all shards are done, run:"
-  say "  $(printf '%q merge %q' "$PROGRAM" "$PLAN")"
+  say "  $(printf '%q shards merge %q' "$PROGRAM" "$PLAN")"
   exit 1
 fi
 echo "results:  job ${job%%;*}, in $PLAN/results; what it says is in $PLAN/logs/merge-${job%%;*}.log"
-echo "progress: $(printf '%q status %q' "$PROGRAM" "$PLAN")"
+echo "progress: $(printf '%q shards status %q' "$PROGRAM" "$PLAN")"

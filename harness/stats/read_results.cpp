@@ -123,7 +123,7 @@ class Reader {
     expect_least("square", row.square, 0);
     expect_least("round", row.round, 0);
     expect_least("position", row.position, 0);
-    const std::int64_t units = row.is_narrow() ? row.pair_count : row.frames;
+    const std::int64_t units = row.units();
     expect_least(row.is_narrow() ? "pair_count" : "frames", units, 1);
     Sample sample;
     sample.process = row.process;
@@ -144,7 +144,8 @@ class Reader {
     key.scene = row.scene;
     key.scene_hash = row.scene_hash;
     key.bodies = row.bodies;
-    key.boxes = to_string(row.boxes);
+    if (!row.boxes) fail("boxes", "tight or loose");
+    key.boxes = to_string(*row.boxes);
     if (row.seed >= 0) key.seed = std::to_string(row.seed);
     key.threads = row.threads;
     if (row.isa_limit) key.isa_limit = to_string(*row.isa_limit);
@@ -209,7 +210,7 @@ Results read_results(const std::filesystem::path& folder_or_file, const OriginOf
     throw base::InputError(
         of_machines.begin()->second.file.string(), 0,
         fmt::format("has rows of {} machines, whose times are not pooled; "
-                    "expected the rows of one (`touchstone tables` on the folder "
+                    "expected the rows of one (`touchstone show --tables` on the folder "
                     "makes tables of each)",
                     of_machines.size()));
   }

@@ -1,4 +1,4 @@
-// A request to `touchstone trade`, from the command line or a file.
+// A request to `touchstone advise --front`, from the command line or a file.
 #pragma once
 
 #include <array>

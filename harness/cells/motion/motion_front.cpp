@@ -86,6 +86,7 @@ MotionTrade plan_motion_trade(const MotionRequest& request, double seconds) {
   trade.steps = static_cast<std::size_t>(read.frames);
   trade.methods = methods_of(request);
   trade.cells.name = read.name;
+  trade.cells.query_kind = "motion";
   trade.cells.cells = plan_motion(request);
   trade.cells.sample_seconds =
       sample_share * seconds / static_cast<double>(trade.methods.size()) / trade.cells.rounds;
@@ -101,7 +102,7 @@ MotionTrade plan_motion_trade(const MotionRequest& request, double seconds) {
 }
 
 std::string write_motion_front(const MotionTrade& trade, const std::filesystem::path& folder) {
-  const auto times = record::read_rows<stats::CellTimeRow>(folder / "times.csv");
+  const auto times = record::read_rows<stats::CellTimeRow>(folder / "set_times.csv");
   std::vector<MotionPointRow> points;
   for (const MotionMethod& method : trade.methods) {
     const auto time = std::ranges::find_if(

@@ -99,6 +99,15 @@ class MethodPlayer {
                                          : players_->continuous->answers();
   }
 
+  std::uint64_t hash() const {
+    std::uint64_t sum = 0;
+    for (const StepAnswer& step : answers()) {
+      for (const auto* pairs : {&step.hits, &step.unknown})
+        sum = base::mix(sum ^ base::pair_hash(*pairs));
+    }
+    return sum;
+  }
+
   // Judges the answers of the last play, and plays once more alone: as many steps as differ then are
   // wrong in another way.
   kinds::TimedGrade grade(int threads) {
@@ -182,6 +191,7 @@ kinds::TimedSet make_motion_cell(const std::shared_ptr<MotionScene>& scene,
     contestant.prepare = [=] { player->prepare(threads); };
     contestant.answer = [=] { player->play(); };
     contestant.grade = [=] { return player->grade(threads); };
+    contestant.hash = [=] { return player->hash(); };
     cell.contestants.push_back(std::move(contestant));
   }
   return cell;
@@ -265,7 +275,7 @@ std::vector<kinds::PlannedSet> plan_motion(const MotionRequest& request) {
       for (const int threads : request.threads) {
         cells.push_back({group, fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"),
                          [=] { return make_motion_cell(scene, request, threads, most_threads); },
-                         threads != request.threads.front()});
+                         threads != request.threads.front(), threads});
       }
     }
   }

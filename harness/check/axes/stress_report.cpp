@@ -70,8 +70,8 @@ std::string stress_text(const StressRequest& request, const StressResult& result
   if (!request.contestants.empty()) {
     text =
         "Of bodies that are not convex, rays, points and motion, the first value with an answer "
-        "that is "
-        "wrong and does not tell, or with a crash:\n" +
+        "that is missed, false or inexact, or with a query that failed; after a slash the first "
+        "that was given up:\n" +
         axis_tables(request, result.families, page_width) + "\n";
   }
   if (request.cells.empty()) return text + promise(request, result);
@@ -81,7 +81,7 @@ std::string stress_text(const StressRequest& request, const StressResult& result
   text += table(request, result.reaches, EnvelopeTable::side).text(page_width);
   text += "\n... or has a wrong number; \"(input)\": only because the input was rounded:\n\n";
   text += table(request, result.reaches, EnvelopeTable::wrong).text(page_width);
-  text += "\nFirst value at which the algorithm says that it fails:\n\n";
+  text += "\nFirst value at which the algorithm gave up:\n\n";
   text += table(request, result.reaches, EnvelopeTable::honest).text(page_width);
   std::int64_t skipped = 0, dropped = 0;
   for (const StressRow& row : result.rows) skipped += row.skipped;
@@ -110,8 +110,8 @@ std::string stress_page(const StressRequest& request, const StressResult& result
   text += axis_sections(request, result.families);
   text +=
       "## First value on the wrong side of contact\n\nCounted from the mild end of each axis: an "
-      "answer says overlapping of bodies that are apart, or the reverse, while the algorithm says "
-      "that all is well or cannot say; or the query crashes or hangs. `-`: nowhere on the axis. "
+      "answer is overlapping for bodies that are apart, or the reverse, with status `ok` or "
+      "none; or the query crashes or hangs. `-`: nowhere on the axis. "
       "Empty: it takes no such pairs.\n\n";
   text += table(request, result.reaches, EnvelopeTable::side).markdown();
   text +=
@@ -121,7 +121,7 @@ std::string stress_page(const StressRequest& request, const StressResult& result
       "counts: *(input)* is where it was right about that, and only the conversion of the input to "
       "its scalar made the answer wrong.\n\n";
   text += table(request, result.reaches, EnvelopeTable::wrong).markdown();
-  text += "\n## First value at which it says that it fails\n\n";
+  text += "\n## First value at which it gave up\n\n";
   text += table(request, result.reaches, EnvelopeTable::honest).markdown();
   if (!pictures.empty()) {
     text += fmt::format(

@@ -34,7 +34,7 @@ std::string range_of(const CheckRequest& request, const std::string& axis) {
 
 std::string first_values(const CheckRequest& request, const FamilyCounts& counts,
                          std::uint32_t contestant, const std::string& axis) {
-  std::optional<std::string> wrong, honest;
+  std::optional<std::string> wrong, given_up;
   bool is_asked = false;
   for (std::uint32_t place = 0; place < request.families.size(); ++place) {
     const kinds::Family& family = *request.families[place];
@@ -42,10 +42,10 @@ std::string first_values(const CheckRequest& request, const FamilyCounts& counts
     if (family.axis != axis || at == counts.end()) continue;
     is_asked = true;
     if (!wrong && at->second.silent() + at->second.failed > 0) wrong = family.value;
-    if (!honest && at->second.gave_up > 0) honest = family.value;
+    if (!given_up && at->second.gave_up > 0) given_up = family.value;
   }
   if (!is_asked) return "";
-  return wrong.value_or("-") + (honest ? " / " + *honest : "");
+  return wrong.value_or("-") + (given_up ? " / " + *given_up : "");
 }
 
 std::optional<base::Table> table_of(const CheckRequest& request, const FamilyCounts& counts,

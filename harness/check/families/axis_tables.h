@@ -10,7 +10,7 @@
 namespace touchstone::check {
 
 // For each kind a table with a cell for each contestant and axis: the first value with an answer that is
-// missed, false or wrong, or a crash; after a slash the first that it does not stand by. "-" where there
+// missed, false or inexact, or a crash; after a slash the first that it gave up. "-" where there
 // is none, empty where it takes no such cases.
 std::string axis_tables(const CheckRequest& request, const FamilyCounts& counts,
                         std::size_t page_width);

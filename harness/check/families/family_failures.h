@@ -15,7 +15,7 @@ struct FamilyFailure {
   std::string command;  // asks for the first such case again
 };
 
-// Writes the first case of each count that has missed, false, wrong or lost ones, into failures/ of
+// Writes the first case of each count that has missed, false, inexact or failed ones, into failures/ of
 // the request's folder: all of ours, and one of a family for each other contestant.
 std::vector<FamilyFailure> write_family_failures(const CheckRequest& request,
                                                  const FamilyCounts& counts);

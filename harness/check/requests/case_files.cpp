@@ -1,4 +1,4 @@
-// Reads requests to check, stress and soak from files.
+// Reads requests to check from files.
 #include "harness/check/requests/case_files.h"
 
 #include <fmt/ranges.h>
@@ -121,14 +121,25 @@ StressRequest read_stress(files::TomlTable& table) {
   return request;
 }
 
-SoakRequest read_soak(files::TomlTable& table) {
+// `key` is that of the number of cases.
+SoakRequest read_soak(files::TomlTable& table, std::string_view key) {
   SoakRequest request;
   read_common(table, request);
   CaseSelection selection = read_algorithms(table);
   if (selection.is_unsaid()) selection.pair = "certified";
   read_cases_of(table, selection, "none", request);
-  request.pairs = table.integer("pairs", 1, 1'000'000'000'000, request.pairs);
+  request.pairs = table.integer(key, 1, 1'000'000'000'000, request.pairs);
   return request;
+}
+
+// Reads a table [check], which with `axes` is a sweep and with `count` a soak.
+std::variant<CheckRequest, StressRequest, SoakRequest> read_any_check(files::TomlTable& table) {
+  if (table.has("axes")) {
+    if (table.has("count")) table.fail("count", "expected it without `axes`");
+    return read_stress(table);
+  }
+  if (table.has("count")) return read_soak(table, "count");
+  return read_check(table);
 }
 
 }  // namespace
@@ -154,9 +165,9 @@ CaseFile read_case_file(const std::filesystem::path& file) {
   }
   files::TomlTable table = top.inside(*kind, std::string(*kind));
   switch (kind - kinds.begin()) {
-    case 0: read.request = read_check(table); break;
+    case 0: read.request = read_any_check(table); break;
     case 1: read.request = read_stress(table); break;
-    default: read.request = read_soak(table); break;
+    default: read.request = read_soak(table, "pairs"); break;
   }
   table.finish();
   top.finish();  // a second table of these is an unknown key

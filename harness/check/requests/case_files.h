@@ -1,4 +1,4 @@
-// Requests to check, stress and soak from a file.
+// Requests to check from a file.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,13 @@
 
 namespace touchstone::check {
 
-// The work of a file, named by the table that it has: [check], [stress] or [soak].
+// The work of a file with a table [check]: a check, with the key `axes` a sweep, and with `count` a
+// soak. The last two may also have tables of their own, [stress] and [soak].
 struct CaseFile {
   std::string name;  // its key `name`, else the file's
   std::variant<CheckRequest, StressRequest, SoakRequest> request;
 
-  std::string_view kind() const;  // "check", "stress" or "soak"
+  std::string_view kind() const;  // "check", "stress" or "soak", by the work
   CheckRequest& common();         // what all three have
 };
 

@@ -174,7 +174,7 @@ void select_axes_and_algorithms(const CaseSelection& selection, const std::strin
   select_algorithms(selection, "all", request);
   request.broad.clear();
   std::string of_pairs;  // axes of narrow phases, and what is known to neither
-  const auto wanted = names_of(axes);
+  const auto wanted = names_of(axes == "all" ? "" : axes);
   for (const std::string& name : wanted) {
     const auto families = kinds::axis_families();
     const auto has_name = [&](const kinds::Family* family) { return family->axis == name; };

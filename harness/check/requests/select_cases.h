@@ -1,5 +1,5 @@
 // Algorithms of all kinds, and regimes and families of cases for them, by their names. Used by the
-// commands check and soak, and by files of requests.
+// command check, and by files of requests.
 #pragma once
 
 #include <map>
@@ -30,7 +30,7 @@ struct CaseSelection {
 void select_cases(const CaseSelection& selection, const char* fallback, CheckRequest& request);
 
 // Fills in the algorithms and axes of a sweep in the same way: `axes` is a list joined by commas, or
-// empty for all that the algorithms have cases of.
+// empty or "all" for all that the algorithms have cases of.
 void select_axes_and_algorithms(const CaseSelection& selection, const std::string& axes,
                                 StressRequest& request);
 

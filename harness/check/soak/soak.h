@@ -23,10 +23,11 @@ struct SoakCount {
   std::int64_t pairs = 0;  // pairs of kinds that it takes
   // Exact answers of these pairs; `unresolved` are curved bodies that the oracle leaves open.
   std::int64_t separated = 0, touching = 0, overlapping = 0, unresolved = 0;
-  std::int64_t silent = 0;        // wrong side of contact, and stood by or without a status
-  std::int64_t honest = 0;        // answers unknown, or not stood by
-  std::int64_t lost = 0;          // queries that crashed, or gave no answer in time
-  std::int64_t first_wrong = -1;  // index of the first case that was silently wrong or lost
+  std::int64_t silent = 0;  // wrong side of contact, with status ok or none
+  std::int64_t honest =
+      0;  // gave up: the answer is unknown, or the status says that it is not to be trusted
+  std::int64_t lost = 0;          // failed: crashed, or gave no answer in time
+  std::int64_t first_wrong = -1;  // index of the first case that was silently wrong or failed
 
   void add(const SoakCount& other);
 };

@@ -41,10 +41,11 @@ void count_columns(Count& count, Visit& visit) {
   visit("overlapping", count.overlapping, "Pairs that overlap.");
   visit("unresolved", count.unresolved, "Pairs whose side of contact the oracle leaves open.");
   visit("silent", count.silent, "Answers on the wrong side of contact that nothing tells.");
-  visit("honest", count.honest, "Answers that it does not stand by.");
-  visit("lost", count.lost, "Queries that crashed, or gave no answer in time.");
+  visit("honest", count.honest,
+        "Gave up: the answer is unknown, or the status says that it is not to be trusted.");
+  visit("lost", count.lost, "Failed: crashed, or gave no answer in time.");
   visit("first_wrong", record::with_sign(count.first_wrong),
-        "First case that was silently wrong or lost; -1 where there is none.");
+        "First case that was silently wrong or failed; -1 where there is none.");
 }
 
 template <record::row_of<SoakJobRow> Row, class Visit>

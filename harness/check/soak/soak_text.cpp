@@ -19,7 +19,7 @@ std::string soak_text(const SoakRequest& request, const SoakResult& result,
     totals[{std::get<0>(key), std::get<1>(key)}].add(count);
   }
   base::Table table({"algorithm", "pairs", "separated", "touching", "overlapping", "unresolved",
-                     "silent errors", "honest failures", "lost"});
+                     "silent errors", "gave up", "failed"});
   for (const auto& [key, count] : totals) {
     std::vector<std::string> row = {
         fmt::format("{} {}", request.narrow[key.first]->info.name, to_string(key.second))};
@@ -36,7 +36,7 @@ std::string soak_text(const SoakRequest& request, const SoakResult& result,
   const std::int64_t asked = result.drawn / cases_a_soak_job;
   if (asked < all && !result.interrupted) {
     text += fmt::format(
-        "\nOnly {} of {} regimes and families were asked, each {} cases; --pairs {} asks "
+        "\nOnly {} of {} regimes and families were asked, each {} cases; --count {} asks "
         "all.\n",
         asked, all, cases_a_soak_job, all * cases_a_soak_job);
   }

@@ -1,4 +1,4 @@
-// touchstone merge: joins the shards of a plan. touchstone status: how far they are.
+// touchstone shards merge: joins the shards of a plan. touchstone shards status: how far they are.
 #include "harness/shards/merge.h"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include "harness/base/shell_word.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/shards/status.h"
 
 namespace touchstone::commands {
@@ -35,8 +36,9 @@ int merge(const MergeOptions& options) {
                base::shell_word((plan / "slurm.sh").string()), result.missing_list);
     if (!result.written) return exit_bad_request;
   }
-  fmt::print("{}\n{} in {}\n", result.merged.text,
-             result.missing.empty() ? "Results" : "Partial results", out.string());
+  print_summary(out,
+                fmt::format("{}\n{} in {}\n", result.merged.text,
+                            result.missing.empty() ? "Results" : "Partial results", out.string()));
   return result.merged.ours_wrong ? exit_measured_wrong : exit_done;
 }
 
@@ -48,7 +50,7 @@ int status(const std::string& folder) {
 
 }  // namespace
 
-void add_merge(Arguments command) {
+void add_shards_merge(Arguments command) {
   const auto options = std::make_shared<MergeOptions>();
   command.text("plan", options->plan, "Folder of the plan").required();
   command.text("--out", options->out, "Folder for the results (default: results in the plan's)");
@@ -61,7 +63,7 @@ void add_merge(Arguments command) {
   command.job([options] { return merge(*options); });
 }
 
-void add_status(Arguments command) {
+void add_shards_status(Arguments command) {
   const auto plan = std::make_shared<std::string>();
   command.text("plan", *plan, "Folder of the plan").required();
   command.job([plan] { return status(*plan); });

@@ -1,4 +1,4 @@
-// touchstone plan: cuts a campaign, a trade, a check, a sweep or a soak into shards.
+// touchstone shards plan: cuts a campaign, a trade or a check into shards.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ int plan(PlanOptions& options) {
       "on a cluster:       {1}\n"
       "on some machines:   {2}\n"
       "one shard:          touchstone run --plan {0} --shard 0\n"
-      "how far it is:      touchstone status {0}\n"
-      "all results in one: touchstone merge {0} --out RESULTS\n",
+      "how far it is:      touchstone shards status {0}\n"
+      "all results in one: touchstone shards merge {0} --out RESULTS\n",
       folder, base::shell_word((plan.folder / "slurm.sh").string()),
       base::shell_word((plan.folder / "parallel.sh").string()));
   return exit_done;
@@ -42,11 +42,10 @@ int plan(PlanOptions& options) {
 
 }  // namespace
 
-void add_plan(Arguments command) {
+void add_shards_plan(Arguments command) {
   const auto options = std::make_shared<PlanOptions>();
   command
-      .text("campaign", options->campaign,
-            "A campaign, or a file with a table [trade], [check], [stress] or [soak]")
+      .text("campaign", options->campaign, "A campaign, or a file with a table [trade] or [check]")
       .required();
   command.number("--shards", options->setting.shards, "Number of shards")
       .within(1, 10'000'000)

@@ -1,4 +1,4 @@
-// touchstone run: a shard of a plan, or a file with a table [trade], [check], [stress], [soak] or [cells].
+// touchstone run: a shard of a plan, or a file with a table [trade], [check] or [cells].
 #include <fmt/format.h>
 #include <sched.h>
 
@@ -75,7 +75,7 @@ int run_cases(const RunFileOptions& options) {
   file.common().workers = options.threads;
   const check::CaseEnd end = check::run_case_file(file);
   if (end.interrupted) return end_interrupted();
-  fmt::print("{}\nRows in {}\n", end.text, folder.string());
+  print_summary(folder, fmt::format("{}\nRows in {}\n", end.text, folder.string()));
   if (options.with_page) make_page(folder);
   return end.ours_wrong ? exit_measured_wrong : exit_done;
 }
@@ -87,8 +87,9 @@ int run_cells(const RunFileOptions& options) {
       cells::run_cells(request, folder, record::resume_or_overwrite(options.resume),
                        [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   if (result.interrupted) return end_interrupted();
-  fmt::print("{}Tables in {}\n", stats::write_cell_tables(folder, request.name, folder),
-             folder.string());
+  print_summary(
+      folder, fmt::format("{}Tables in {}\n",
+                          stats::write_cell_tables(folder, request.name, folder), folder.string()));
   if (options.with_page) make_page(folder);
   return result.ours_wrong ? exit_measured_wrong : exit_done;
 }
@@ -97,7 +98,7 @@ int run_file(const RunFileOptions& options, const Option& threads) {
   if (!options.plan.empty()) return run_shard(options);
   const bool is_of_cells = cells::has_cells(options.file);
   if (!is_of_cells && check::has_case_work(options.file)) return run_cases(options);
-  expect_not_given({threads}, "with a shard, or a table [check], [stress] or [soak] alone");
+  expect_not_given({threads}, "with a shard, or a table [check] alone");
   return is_of_cells ? run_cells(options) : run_trades(options);
 }
 
@@ -106,8 +107,7 @@ int run_file(const RunFileOptions& options, const Option& threads) {
 void add_run_file(Arguments command) {
   const auto options = std::make_shared<RunFileOptions>();
   const Option file =
-      command.text("campaign", options->file,
-                   "A file with a table [trade], [check], [stress], [soak] or [cells]");
+      command.text("campaign", options->file, "A file with a table [trade], [check] or [cells]");
   command.text("--out", options->out, "Folder (default: results/local/NAME in the project)")
       .needs(file);
   command

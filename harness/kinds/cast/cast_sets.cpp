@@ -14,6 +14,7 @@
 #include "harness/base/error.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
+#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/cast/cast_grade.h"
 #include "harness/kinds/cast/cast_sets.h"
 #include "harness/kinds/set_keys.h"
@@ -207,6 +208,12 @@ TimedSet make_cast_set(std::size_t kind, Way way, std::size_t count, std::size_t
       made.approximate = !entry->info.known_defect.empty();
       made.answer = [=] { caster->solve(input->batch(input->first.size()), *outcomes); };
       made.grade = [=] { return grade_cast_set(*input, *entry, tolerance, *truths, *outcomes); };
+      made.hash = [=] {
+        return hash_of_answers(std::span<const CastOutcome>(*outcomes), [](const CastOutcome& one) {
+          return hash_of_parts(one.status, one.answer, one.toi, one.lower, one.upper,
+                               hash_of_point(one.normal), hash_of_point(one.point));
+        });
+      };
       cell.contestants.push_back(std::move(made));
     }
   }

@@ -13,6 +13,7 @@
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
 #include "harness/files/motion/ccd_queries.h"
+#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/feature/feature_grade.h"
 #include "harness/kinds/feature/feature_sets.h"
 #include "harness/kinds/set_keys.h"
@@ -142,6 +143,11 @@ TimedSet make_feature_set(const std::shared_ptr<CcdInput>& input, const CcdSetti
     made.answer = [=] { solver->solve(input->pair, input->queries, *outcomes); };
     made.grade = [=, is_oracle = entry->info.origin == Origin::oracle] {
       return grade_feature_set(*input, settings, is_oracle, *outcomes);
+    };
+    made.hash = [=] {
+      return hash_of_answers(std::span<const CcdOutcome>(*outcomes), [](const CcdOutcome& one) {
+        return hash_of_parts(one.status, one.answer, one.toi, one.free_before, one.contact_by);
+      });
     };
     cell.contestants.push_back(std::move(made));
   }

@@ -12,6 +12,7 @@
 #include "harness/base/hash.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
+#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/mesh/mesh_grade.h"
 #include "harness/kinds/mesh/mesh_sets.h"
 #include "harness/kinds/mesh/mesh_setup.h"
@@ -58,6 +59,11 @@ struct MeshAnswers {
     const Outcome& outcome = outcomes[i];
     return {outcome.status, outcome.answer,  outcome.distance,         outcome.lower,
             outcome.upper,  lists[i].size(), base::pair_hash(lists[i])};
+  }
+  std::uint64_t hash() const {
+    std::uint64_t sum = hash_of_answers(std::span<const Outcome>(outcomes), hash_of_outcome);
+    for (const std::vector<IndexPair>& list : lists) sum = base::mix(sum ^ base::pair_hash(list));
+    return sum;
   }
 };
 
@@ -182,6 +188,7 @@ TimedSet make_mesh_set(const MeshBodies& bodies, MeshPlace place, ConcaveTask ta
       made.approximate = entry->approximate || !entry->info.known_defect.empty();
       made.answer = [=] { answers->ask(*phase, task, *input); };
       made.grade = [=] { return grade_mesh_set(*input, task, scalar, *answers); };
+      made.hash = [=] { return answers->hash(); };
       cell.contestants.push_back(std::move(made));
     }
   }

@@ -11,6 +11,7 @@
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
 #include "harness/base/random.h"
+#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/mesh/mesh_setup.h"
 #include "harness/kinds/mesh/sliding_sets.h"
 #include "harness/kinds/set_keys.h"
@@ -58,6 +59,18 @@ struct SlidingAnswers {
   std::vector<Outcome> outcomes;
   std::vector<std::vector<IndexPair>> pairs;
   std::vector<std::vector<PartContact>> contacts;
+
+  std::uint64_t hash() const {
+    std::uint64_t sum = hash_of_answers(std::span<const Outcome>(outcomes), hash_of_outcome);
+    for (const std::vector<PartContact>& of_pair : contacts) {
+      for (const PartContact& contact : of_pair) {
+        sum = base::mix(sum ^ hash_of_parts(contact.parts.a, contact.parts.b, contact.status,
+                                            hash_of_point(contact.normal), contact.depth,
+                                            hash_of_point(contact.point)));
+      }
+    }
+    return sum;
+  }
 };
 
 SlidingInput make_sliding_input(std::size_t squares, std::string_view body, std::size_t count,
@@ -137,6 +150,7 @@ TimedContestant sliding_contestant(const std::shared_ptr<const SlidingInput>& in
     }
   };
   made.grade = [=] { return grade_sliding_set(*input, *answers); };
+  made.hash = [=] { return answers->hash(); };
   return made;
 }
 

@@ -12,6 +12,7 @@
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
 #include "harness/geometry/shapes/compound.h"
+#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/mesh_inputs.h"
 #include "harness/kinds/point/point_grade.h"
 #include "harness/kinds/point/point_sets.h"
@@ -100,6 +101,12 @@ class PointSets {
       contestant.answer = [=] { query->query(task, input->points, *answers); };
       contestant.grade = [=, scalar = entry->scalar] {
         return grade_points(*input, task, scalar, *answers);
+      };
+      contestant.hash = [=] {
+        return hash_of_answers(std::span<const PointAnswer>(*answers), [](const PointAnswer& one) {
+          return hash_of_parts(one.status, one.side, one.triangle, one.distance,
+                               hash_of_point(one.closest));
+        });
       };
       cell.contestants.push_back(std::move(contestant));
     }

@@ -12,6 +12,7 @@
 #include "algorithms/registry.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
+#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/mesh_inputs.h"
 #include "harness/kinds/ray/ray_grade.h"
 #include "harness/kinds/ray/ray_sets.h"
@@ -151,6 +152,11 @@ class RaySets {
     made.approximate = !entry.exact_verdicts;
     made.answer = [=] { caster->cast(task, input->rays, *hits); };
     made.grade = [=, &entry] { return grade_ray_set(*input, task, entry, scalar, *hits); };
+    made.hash = [=] {
+      return hash_of_answers(std::span<const RayHit>(*hits), [](const RayHit& one) {
+        return hash_of_parts(one.status, one.hit, one.triangle, one.t, one.u, one.v);
+      });
+    };
     return made;
   }
 

@@ -15,6 +15,7 @@
 #include "harness/record/raw_row.h"
 #include "harness/record/row.h"
 #include "harness/stats/cells/cell_rows.h"
+#include "harness/stats/cells/cell_times.h"
 
 namespace touchstone::stats {
 namespace {
@@ -48,7 +49,7 @@ Contestant contestant_of(const GradeRow& row) {
 }  // namespace
 
 bool is_of_cells(const std::filesystem::path& folder_or_file) {
-  return std::filesystem::exists(files::row_file(folder_of(folder_or_file) / "grades.csv"));
+  return std::filesystem::exists(files::row_file(folder_of(folder_or_file) / "set_grades.csv"));
 }
 
 Results read_cell_results(const std::filesystem::path& folder_or_file) {
@@ -62,7 +63,7 @@ Results read_cell_results(const std::filesystem::path& folder_or_file) {
     results.isa = {record::value_of(facts, "instructions_in_use")};
   }
   std::map<std::pair<std::string, std::string>, std::size_t> place;
-  for (const GradeRow& row : record::read_rows<GradeRow>(folder / "grades.csv")) {
+  for (const GradeRow& row : record::read_rows<GradeRow>(folder / "set_grades.csv")) {
     if (row.status == "unsupported") continue;
     const auto [at, is_new] = place.emplace(std::pair(row.group, row.cell), results.sets.size());
     if (is_new) {
@@ -72,22 +73,22 @@ Results read_cell_results(const std::filesystem::path& folder_or_file) {
     }
     results.sets[at->second].contestants.push_back(contestant_of(row));
   }
-  for (const CellSampleRow& row : record::read_rows<CellSampleRow>(results.file)) {
-    const auto at = place.find({row.group, row.cell});
+  for (const record::RawRow& row : record::read_rows<record::RawRow>(results.file)) {
+    const auto at = place.find({row.input, row.family});
     Contestant* contestant = nullptr;
-    if (at != place.end())
-      for (Contestant& each : results.sets[at->second].contestants)
+    if (at != place.end()) {
+      SampleSet& set = results.sets[at->second];
+      for (Contestant& each : set.contestants)
         if (each.label == row.algorithm) contestant = &each;
+      if (contestant != nullptr && row.is_twin()) contestant = &set.twin;
+      if (row.noise.ends_with("canary")) set.suspect = true;
+      if (!row.stop.empty()) set.stop = row.stop;
+    }
     if (contestant == nullptr)
       throw base::InputError(results.file.string(), 0,
-                             fmt::format("{} in {}, {} has samples and no grade in grades.csv",
-                                         row.algorithm, row.group, row.cell));
-    Sample sample;
-    sample.square = sample.round = row.round;
-    sample.position = row.position;
-    sample.units = 1;
-    sample.noisy = !row.noise.empty();
-    add_phase(*contestant, record::Phase::narrow, sample, row.seconds);
+                             fmt::format("{} in {}, {} has samples and no grade in set_grades.csv",
+                                         row.algorithm, row.input, row.family));
+    add_sample(*contestant, row);
   }
   return results;
 }

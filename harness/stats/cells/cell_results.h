@@ -10,8 +10,8 @@ namespace touchstone::stats {
 // Whether the folder, or the raw.csv in it, is of a cell run.
 bool is_of_cells(const std::filesystem::path& folder_or_file);
 
-// Reads grades.csv, raw.csv and machine.csv. A cell is a set whose scene is named "group, cell" and has
-// the hash of the cells' file; a round is a square; a grade is the check of a contestant. Throws
+// Reads set_grades.csv, raw.csv and machine.csv. A cell is a set whose scene is named "group, cell" and has
+// the hash of the cells' file; a grade is the check of a contestant. Throws
 // InputError with file and line.
 Results read_cell_results(const std::filesystem::path& folder_or_file);
 

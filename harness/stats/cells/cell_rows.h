@@ -9,7 +9,7 @@
 
 namespace touchstone::stats {
 
-// grades.csv: one algorithm's answers to one cell.
+// set_grades.csv: one algorithm's answers to one cell.
 struct GradeRow {
   std::string group, cell, algorithm, origin;
   bool approximate = false;
@@ -51,29 +51,11 @@ void columns(Row& row, Visit visit) {
   visit("hit_hash", row.hit_hash,
         "Of motion: hash of the pairs that it found, step by step; equal where they are.");
   visit("status", row.status,
-        "`ok`, or how it ended: crashed, timed_out; unsupported, if it takes not all queries.");
+        "`ok`, or how it ended: crashed, timed_out; unsupported, if it takes not all queries. In "
+        "set_times.csv also `wrong`: another answer in a sample than the one that was graded.");
 }
 
-// raw.csv of a cell run: one sample.
-struct CellSampleRow {
-  std::string group, cell, algorithm;
-  std::int64_t round = 0, position = 0, repeats = 0;
-  double seconds = Outcome::none;
-  std::string noise;
-};
-template <record::row_of<CellSampleRow> Row, class Visit>
-void columns(Row& row, Visit visit) {
-  visit("group", row.group, "Group of cells, one table.");
-  visit("cell", row.cell, "Name of the cell.");
-  visit("algorithm", row.algorithm, "Name of the algorithm, with the scalar where it has several.");
-  visit("round", row.round, "Number of the round, in which every algorithm is timed once.");
-  visit("position", row.position, "Position in the round, which is shuffled.");
-  visit("repeats", row.repeats, "How often all queries were answered in the sample.");
-  visit("seconds", row.seconds, "Time of a query, seconds.");
-  visit("noise", row.noise, "What else the machine did in the round; empty when it was quiet.");
-}
-
-// times.csv of a cell run: one algorithm in one cell.
+// set_times.csv: one algorithm in one cell.
 struct CellTimeRow {
   GradeRow grade;
   double seconds = Outcome::none, low = Outcome::none, high = Outcome::none;
@@ -83,17 +65,21 @@ struct CellTimeRow {
 template <record::row_of<CellTimeRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
   columns(row.grade, visit);
-  visit("seconds", record::rounded(row.seconds, 4), "Median time of a query, seconds.");
+  visit("seconds", record::rounded(row.seconds, 4),
+        "Time of a query, seconds: the median over the squares, of which each is the median of its "
+        "rounds. Empty if it was not timed, or lost while it was.");
   visit("seconds_low", record::rounded(row.low, 4), "Lower end of its interval at 95 %.");
   visit("seconds_high", record::rounded(row.high, 4), "Upper end.");
-  visit("samples", row.samples, "Samples.");
+  visit("samples", row.samples, "Samples that count.");
   visit("best", row.best, "1: the fastest of ours, or of the peers, that is right in this cell.");
 }
 
-// best.csv of a cell run: the fastest of ours that is right, against the fastest peer that is.
+// set_best.csv: the fastest of ours that is right, against the fastest peer that is.
 struct CellBestRow {
   std::string group, cell, ours, peer;
   double ratio = Outcome::none, low = Outcome::none, high = Outcome::none;
+  std::string baseline;
+  double twin = Outcome::none, twin_low = Outcome::none, twin_high = Outcome::none;
 };
 template <record::row_of<CellBestRow> Row, class Visit>
 void columns(Row& row, Visit visit) {
@@ -102,12 +88,17 @@ void columns(Row& row, Visit visit) {
   visit("ours", row.ours, "The fastest of ours that is right.");
   visit("peer", row.peer, "The fastest peer that is right; empty if none is.");
   visit("ratio", record::rounded(row.ratio, 4),
-        "Time of the peer over ours: the median of the rounds.");
+        "Time of the peer over ours: the median over the squares.");
   visit("ratio_low", record::rounded(row.low, 4), "Lower end of its interval at 95 %.");
   visit("ratio_high", record::rounded(row.high, 4), "Upper end.");
+  visit("baseline", row.baseline, "The algorithm that was registered twice (A/A control).");
+  visit("twin_ratio", record::rounded(row.twin, 4),
+        "Time of its twin over its own, which shows the error of the measurement.");
+  visit("twin_low", record::rounded(row.twin_low, 4), "Lower end of its interval at 95 %.");
+  visit("twin_high", record::rounded(row.twin_high, 4), "Upper end.");
 }
 
-// speed_ups.csv of a cell run: an algorithm at several threads, against itself at one.
+// set_speed_ups.csv: an algorithm at several threads, against itself at one.
 struct CellSpeedUpRow {
   std::string group, cell, algorithm, origin;
   std::int64_t threads = 0;
@@ -121,7 +112,7 @@ void columns(Row& row, Visit visit) {
   visit("origin", row.origin, "ours, peer or oracle.");
   visit("threads", row.threads, "Threads.");
   visit("speed_up", record::rounded(row.speed_up, 4),
-        "Time at one thread over that at these: the median of rounds that both share.");
+        "Time at one thread over that at these: the median of squares that both share.");
   visit("speed_up_low", record::rounded(row.low, 4), "Lower end of its interval at 95 %.");
   visit("speed_up_high", record::rounded(row.high, 4), "Upper end.");
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <string_view>
 
 #include "harness/stats/statistics.h"
@@ -46,13 +45,13 @@ std::vector<CellSpeedUpRow> cell_speed_ups(std::span<const CellTimes> cells) {
     const CellTimes* one = name.threads == 1 ? nullptr : find(cells, cell.name.first, name.rest);
     if (one == nullptr) continue;
     for (const CellTimeRow& row : cell.rows) {
-      const auto own = cell.by_round.find(row.grade.algorithm);
-      const auto alone = one->by_round.find(row.grade.algorithm);
-      if (!row.grade.is_right() || own == cell.by_round.end() || alone == one->by_round.end())
+      const auto own = cell.contestants.find(row.grade.algorithm);
+      const auto alone = one->contestants.find(row.grade.algorithm);
+      if (!row.grade.is_right() || row.grade.status != "ok" || own == cell.contestants.end() ||
+          alone == one->contestants.end() || alone->second.failure)
         continue;
-      std::vector<double> logs;
-      for (std::size_t k = 0; k < std::min(own->second.size(), alone->second.size()); ++k)
-        logs.push_back(std::log(alone->second[k] / own->second[k]));
+      const Noise noise = one->noise == Noise::kept ? Noise::kept : cell.noise;
+      const std::vector<double> logs = paired_log_ratios(alone->second, own->second, noise);
       if (logs.empty()) continue;
       const MedianInterval ratio = exponential(median_interval(logs, cell_confidence));
       all.push_back({cell.name.first, std::string(name.rest), row.grade.algorithm, row.grade.origin,

@@ -9,7 +9,7 @@
 namespace touchstone::stats {
 
 // A row for each algorithm that is right and was timed in a cell whose name ends with "2 threads", or more, and in
-// the cell of the same name for one. These share their rounds.
+// the cell of the same name for one. These share their squares.
 std::vector<CellSpeedUpRow> cell_speed_ups(std::span<const CellTimes> cells);
 
 }  // namespace touchstone::stats

@@ -56,6 +56,20 @@ std::string table_of(const CellTimes& cell) {
   return table.markdown();
 }
 
+std::string graded_text(const CellTimes& cell) {
+  if (cell.rows.empty()) return "";
+  const GradeRow& grade = cell.rows.front().grade;
+  return fmt::format("{} queries, {} of them graded by `{}`.", grade.queries, grade.graded,
+                     grade.truth);
+}
+
+std::string twin_text(const CellTimes& cell) {
+  if (!cell.best || std::isnan(cell.best->twin)) return "";
+  return fmt::format(" The twin of {} takes {:.3g} of its time ({:.3g} to {:.3g}).",
+                     cell.best->baseline, cell.best->twin, cell.best->twin_low,
+                     cell.best->twin_high);
+}
+
 std::string speed_up_section(const std::vector<CellSpeedUpRow>& speed_ups) {
   if (speed_ups.empty()) return "";
   base::Table table({"cell", "algorithm", "threads", "speed-up", "95 % interval"}, 2);
@@ -94,10 +108,8 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
       group = cell.name.first;
       sections += fmt::format("## {}\n\n", group);
     }
-    sections +=
-        fmt::format("### {}\n\n{} queries, {} of them held against exact answers.\n\n{}\n",
-                    cell.name.second, cell.rows.empty() ? 0 : cell.rows.front().grade.queries,
-                    cell.rows.empty() ? 0 : cell.rows.front().grade.graded, table_of(cell));
+    sections += fmt::format("### {}\n\n{}{}\n\n{}\n", cell.name.second, graded_text(cell),
+                            twin_text(cell), table_of(cell));
     if (!cell.best) continue;
     bests.push_back(*cell.best);
     const auto number = [](double x) {
@@ -109,18 +121,23 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
                   ? "-"
                   : number(cell.best->low) + " to " + number(cell.best->high)});
   }
-  record::write_rows(out / "times.csv", times);
-  record::write_rows(out / "best.csv", bests);
+  record::write_rows(out / "set_times.csv", times);
+  record::write_rows(out / "set_best.csv", bests);
   const std::vector<CellSpeedUpRow> speed_ups = cell_speed_ups(cells);
-  if (!speed_ups.empty()) record::write_rows(out / "speed_ups.csv", speed_ups);
+  if (!speed_ups.empty()) record::write_rows(out / "set_speed_ups.csv", speed_ups);
   files::write_text(
       out / "tables.md",
       fmt::format(
-          "# Tables of {}\n\n{}\nTimes are medians over rounds in which every algorithm is timed "
-          "once, "
-          "in shuffled order; intervals are those of the sign test at\n95 %. All answers were held "
-          "against exact ones before. Bold: the fastest of ours, and of the peers, with no wrong "
-          "answer.\n\n## Ours against the libraries\n\n{}\n{}{}",
+          "# Tables of {}\n\n{}\nEvery algorithm is timed in a process of its own, once in each "
+          "round, in "
+          "shuffled Latin squares.\nTimes are medians over the squares; intervals are those of the "
+          "sign "
+          "test at 95 %. Answers were graded before, and are compared\nwith the graded ones in "
+          "each "
+          "sample. Bold: the fastest of ours, and of the peers, with no wrong answer. The twin is "
+          "a "
+          "second\nregistration of the baseline: its ratio shows the error of the measurement.\n\n"
+          "## Ours against the libraries\n\n{}\n{}{}",
           name, facts_of(folder), best.markdown(), speed_up_section(speed_ups), sections));
   return best.text(base::page_width());
 }

@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
 
+#include "harness/measure/measure_plan.h"
+#include "harness/record/raw_row.h"
 #include "harness/record/row.h"
 #include "harness/stats/statistics.h"
 
 namespace touchstone::stats {
 namespace {
-
-using Name = std::pair<std::string, std::string>;
 
 // The place of the fastest of an origin that is right and was timed.
 std::optional<std::size_t> fastest(const CellTimes& cell, std::string_view origin) {
@@ -26,6 +27,11 @@ std::optional<std::size_t> fastest(const CellTimes& cell, std::string_view origi
   return best;
 }
 
+// The ratio of the times of a and b.
+MedianInterval ratio_of(const Contestant& a, const Contestant& b, Noise noise) {
+  return exponential(median_interval(paired_log_ratios(a, b, noise), cell_confidence));
+}
+
 void compare(CellTimes& cell) {
   const std::optional<std::size_t> ours = fastest(cell, "ours"), peer = fastest(cell, "peer");
   if (ours) cell.rows[*ours].best = true;
@@ -35,49 +41,93 @@ void compare(CellTimes& cell) {
   best.group = cell.name.first;
   best.cell = cell.name.second;
   best.ours = cell.rows[*ours].grade.algorithm;
+  best.baseline = cell.twin.label;
+  if (!best.baseline.empty()) {
+    const MedianInterval twin = ratio_of(cell.twin, cell.contestants[best.baseline], cell.noise);
+    best.twin = twin.median;
+    best.twin_low = twin.low;
+    best.twin_high = twin.high;
+  }
   if (!peer) return;
   best.peer = cell.rows[*peer].grade.algorithm;
-  const std::vector<double>&a = cell.by_round[best.ours], &b = cell.by_round[best.peer];
-  std::vector<double> logs;
-  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-    logs.push_back(std::log(b[k] / a[k]));
-  const MedianInterval ratio = exponential(median_interval(logs, cell_confidence));
+  const MedianInterval ratio =
+      ratio_of(cell.contestants[best.peer], cell.contestants[best.ours], cell.noise);
   best.ratio = ratio.median;
   best.low = ratio.low;
   best.high = ratio.high;
 }
 
+// A disturbed round counts where too few would be left without it, since a ratio within a square still
+// holds.
+Noise noise_of(const CellTimes& cell) {
+  std::size_t samples = 0, quiet = 0;
+  std::set<SquareKey> squares;
+  for (const auto& [name, contestant] : cell.contestants) {
+    for (const Sample& sample : contestant.samples) {
+      ++samples;
+      if (sample.noisy) continue;
+      ++quiet;
+      squares.emplace(sample.process, sample.square);
+    }
+  }
+  return 2 * quiet >= samples && squares.size() >= measure::first_look ? Noise::left_out
+                                                                       : Noise::kept;
+}
+
+void take_times(CellTimes& cell) {
+  cell.noise = noise_of(cell);
+  for (CellTimeRow& row : cell.rows) {
+    const Contestant& contestant = cell.contestants[row.grade.algorithm];
+    if (contestant.failure) {
+      row.grade.status = to_string(*contestant.failure);
+      continue;
+    }
+    row.samples = std::ranges::count_if(contestant.samples, [&](const Sample& sample) {
+      return cell.noise == Noise::kept || !sample.noisy;
+    });
+    std::vector<double> seconds;
+    for (const auto& [square, value] : by_square(contestant, cell.noise)) seconds.push_back(value);
+    if (seconds.empty()) continue;
+    const MedianInterval time = median_interval(seconds, cell_confidence);
+    row.seconds = time.median;
+    row.low = time.low;
+    row.high = time.high;
+  }
+}
+
 }  // namespace
+
+void add_sample(Contestant& contestant, const record::RawRow& row) {
+  contestant.label = row.algorithm;
+  contestant.origin = row.origin;
+  if (row.lost() || row.wrong()) contestant.failure = row.status;
+  if (!(row.seconds >= 0)) return;
+  Sample sample;
+  sample.process = row.process;
+  sample.square = row.square;
+  sample.round = row.round;
+  sample.position = row.position;
+  sample.units = static_cast<double>(row.units());
+  sample.noisy = !row.noise.empty() && row.noise != "canary";
+  add_phase(contestant, row.phase, sample, row.seconds);
+}
 
 std::vector<CellTimes> read_cell_times(const std::filesystem::path& folder) {
   std::vector<CellTimes> cells;
-  std::map<Name, std::size_t> place;
-  for (const GradeRow& row : record::read_rows<GradeRow>(folder / "grades.csv")) {
-    const Name name{row.group, row.cell};
-    const auto [at, is_new] = place.emplace(name, cells.size());
-    if (is_new) cells.push_back({name, {}, {}, {}});
+  std::map<std::pair<std::string, std::string>, std::size_t> place;
+  for (const GradeRow& row : record::read_rows<GradeRow>(folder / "set_grades.csv")) {
+    const auto [at, is_new] = place.emplace(std::pair(row.group, row.cell), cells.size());
+    if (is_new) cells.emplace_back().name = {row.group, row.cell};
     cells[at->second].rows.emplace_back().grade = row;
   }
-  // A disturbed round counts where all were disturbed, since a ratio within a round still holds.
-  std::map<Name, std::vector<CellSampleRow>> quiet, all;
-  for (const CellSampleRow& row : record::read_rows<CellSampleRow>(folder / "raw.csv")) {
-    all[{row.group, row.cell}].push_back(row);
-    if (row.noise.empty()) quiet[{row.group, row.cell}].push_back(row);
+  for (const record::RawRow& row : record::read_rows<record::RawRow>(folder / "raw.csv")) {
+    const auto at = place.find({row.input, row.family});
+    if (at == place.end()) continue;
+    CellTimes& cell = cells[at->second];
+    add_sample(row.is_twin() ? cell.twin : cell.contestants[row.algorithm], row);
   }
   for (CellTimes& cell : cells) {
-    const std::vector<CellSampleRow>& own = all[cell.name];
-    const std::vector<CellSampleRow>& still = quiet[cell.name];
-    for (const CellSampleRow& row : 2 * still.size() >= own.size() ? still : own)
-      cell.by_round[row.algorithm].push_back(row.seconds);
-    for (CellTimeRow& row : cell.rows) {
-      const std::vector<double>& seconds = cell.by_round[row.grade.algorithm];
-      row.samples = std::ssize(seconds);
-      if (seconds.empty()) continue;
-      const MedianInterval time = median_interval(seconds, cell_confidence);
-      row.seconds = time.median;
-      row.low = time.low;
-      row.high = time.high;
-    }
+    take_times(cell);
     compare(cell);
   }
   return cells;

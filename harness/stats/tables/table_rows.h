@@ -30,6 +30,7 @@ void columns(Row& row, Visit visit) {
                    visit);
   visit("minimum", row.minimum, "Least time of all samples, noisy ones too, seconds.");
   for (const record::Phase phase : base::enumerators<record::Phase>) {
+    if (phase == record::Phase::answer) continue;  // of timed sets, which have tables of their own
     visit(to_string(phase), row.parts[static_cast<std::size_t>(phase)],
           phase == record::Phase::convert
               ? "Median of the checked frames: the part of a peer's build or update that converts "
@@ -67,7 +68,7 @@ void columns(Row& row, Visit visit, double band) {
   tested_columns(row, "Time over the baseline's: the median of paired log ratios over the squares.",
                  visit);
   visit("band_low", record::derived([&, band] { return row.ratio.low / band; }),
-        "Lower end of the band in which `tables --check` wants the interval to lie.");
+        "Lower end of the band in which `reproduce` wants the interval to lie.");
   visit("band_high", record::derived([&, band] { return row.ratio.high * band; }),
         "Upper end of that band.");
   visit("suspect", row.suspect,

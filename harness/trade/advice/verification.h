@@ -42,7 +42,7 @@ struct Verification {
   bool holds() const { return within_budget && time == TimeVerdict::within; }
 };
 
-// Measures the request's grids into that folder, as `touchstone trade` does; without grids it takes
+// Measures the request's grids into that folder, as `touchstone advise --front` does; without grids it takes
 // those of default_grids and also represents each kind of bodies by itself. Then it times the
 // choice interleaved with the fastest configurations within the budget, for longer if the interval
 // does not decide. The held-out scenes are `draws` of held_out.h from `first_draw` on, for the

@@ -53,7 +53,7 @@ export interface AnswerView {
   normal: Triple | null; // from a to b
   witness_a: Triple | null;
   witness_b: Triple | null;
-  // The grade is right, honest (no answer, or one that is not stood by), silent, crashed, hung, approximate (wrong,
+  // The grade is right, honest (gave up: no answer, or a status that says so), silent, crashed, hung, approximate (wrong,
   // as it is designed), or rounded (right for the pair in the algorithm's own numbers alone).
   grade: string;
   why: string; // the reason in words, unless it is right

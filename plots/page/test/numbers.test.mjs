@@ -1,6 +1,7 @@
 // All fields of all tables on a page that the program made are those of the CSV files.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
+import { existsSync } from "node:fs";
 import { mkdtemp, readdir, readFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -15,6 +16,16 @@ const skip =
   program && results.length + scenes.length > 0
     ? false
     : "no program with results or scenes is given";
+
+// The text of a file of rows, which may be packed: the page shows NAME.csv.zst as NAME.csv.
+async function text_of(folder, file) {
+  const plain = join(folder, file);
+  if (existsSync(plain)) return readFile(plain, "utf8");
+  return execFileSync("zstd", ["-dcq", "--", `${plain}.zst`], {
+    encoding: "utf8",
+    maxBuffer: 2 ** 30,
+  });
+}
 
 // What the page shows of the file of a table: its columns as the headings name them, and the fields by columns. The
 // table is filled first, and taken off the page afterwards: a browser takes long to work with a million fields.
@@ -91,7 +102,7 @@ test("numbers are the text of the files", { skip }, async () => {
       folders.add(folder);
       // A folder without the file has an empty table.
       if (columns.length === 0) continue;
-      const expected = csv_rows(await readFile(join(folder, file), "utf8"));
+      const expected = csv_rows(await text_of(folder, file));
       rounded.lines.forEach((line, row) =>
         line.forEach((field, column) => {
           const place = expected.columns.indexOf(rounded.columns[column]);
@@ -114,9 +125,10 @@ test("numbers are the text of the files", { skip }, async () => {
     }
     assert.ok(folders.size >= results.length, "a folder has no table");
     for (const folder of folders) {
-      for (const file of await readdir(folder)) {
+      for (const name of await readdir(folder)) {
+        const file = name.replace(/\.zst$/, "");
         if (!file.endsWith(".csv") || ["progress.csv", "jobs.csv"].includes(file)) continue;
-        const { lines } = csv_rows(await readFile(join(folder, file), "utf8"));
+        const { lines } = csv_rows(await text_of(folder, file));
         assert.ok(lines.length === 0 || compared.has(join(folder, file)), `${folder}/${file}`);
       }
     }

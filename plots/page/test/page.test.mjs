@@ -30,7 +30,7 @@ before(async () => {
       "points.csv":
         "point,front,error,seconds,seconds_low,seconds_high\nfast,1,0.1,0.001,0.0009,0.0011\nright,1,0,0.01,0.009,0.011\n",
       "machine.csv":
-        'name,value\nprocessor,a processor\ncommand_line,touchstone trade\n"scene grid, 100 bodies",h100\n',
+        'name,value\nprocessor,a processor\ncommand_line,touchstone advise --front\n"scene grid, 100 bodies",h100\n',
     },
     [pair, deep_pair],
   );
@@ -131,15 +131,16 @@ test("cells have a chart, crosses beside who was wrong, and samples", async () =
   const graded = "missed,false_hits,inexact,status";
   const cells = ["box", "hull"].flatMap((cell) => [`hit,${cell},mine,ours,`, `hit,${cell},theirs,peer,`]);
   const results = folder_of("cells", {
-    "grades.csv": `${header}${graded}\n${cells.map((cell) => `${cell}0,0,0,ok\n`).join("")}`,
-    "times.csv":
+    "set_grades.csv": `${header}${graded}\n${cells.map((cell) => `${cell}0,0,0,ok\n`).join("")}`,
+    "set_times.csv":
       `${header}${graded},seconds,seconds_low,seconds_high,samples\n` +
       cells.map((cell, i) => `${cell}${i === 1 ? 3 : 0},0,0,ok,${i + 1}e-7,${i + 1}e-7,${i + 1}e-7,6\n`).join(""),
-    "best.csv":
+    "set_best.csv":
       "group,cell,ours,peer,ratio,ratio_low,ratio_high\nhit,box,mine,theirs,2,1.9,2.1\nhit,hull,mine,theirs,3,2.9,3.1\n",
     "raw.csv":
-      "group,cell,algorithm,round,position,repeats,seconds,noise\n" +
-      Array.from({ length: 6 }, (_, i) => `hit,box,theirs,${i},0,9,2e-7,${i ? "" : "steal"}\n`).join(""),
+      "kind,process,square,round,position,phase,seconds,pair_count,noise,twin,query_kind,input,family,algorithm\n" +
+      Array.from({ length: 6 }, (_, i) => `sample,0,${i},0,0,answer,1.8e-6,9,${i ? "" : "steal"},,cast,hit,box,theirs\n`).join("") +
+      "sample,0,0,0,1,answer,1.8e-6,9,,1,cast,hit,box,theirs\n",
   });
   const out = join(await mkdtemp(join(tmpdir(), "page-")), "cells.html");
   const { page, complaints } = await open(browser, await fill(process.env.PAGE, out, bundle_of([results], [])));
@@ -147,7 +148,7 @@ test("cells have a chart, crosses beside who was wrong, and samples", async () =
   assert.equal(await chart.locator('g[aria-label="dot"] path').count(), 4);
   assert.equal(await chart.locator("text", { hasText: "✕" }).count(), 1);
   assert.match(await page.locator("#summary").textContent(), /faster than every library.* in 2 of 2 sets/);
-  await page.locator('table[data-file="times.csv"] tbody tr').nth(1).focus();
+  await page.locator('table[data-file="set_times.csv"] tbody tr').nth(1).focus();
   await page.keyboard.press("Enter");
   assert.match(await page.locator("#cells-samples").textContent(), /6 samples, of which 1 were disturbed/);
   assert.deepEqual(complaints, []);

@@ -64,7 +64,7 @@ test("numbers as C++ writes them", () => {
   assert.equal(time_text(0.00123), "1.23 ms");
 });
 
-test("the page and `touchstone draw` have the same colours", async () => {
+test("the page and `touchstone scene draw` have the same colours", async () => {
   const { palettes } = await sources("scene/body_material.ts");
   const source = await readFile(new URL("harness/draw/scene_picture.cpp", root), "utf8");
   const of_state = (state) => {

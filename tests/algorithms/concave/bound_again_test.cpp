@@ -45,7 +45,7 @@ TEST(BoundAgain, ConcavePhases) {
     if (!is_built(entry.info)) continue;
     SCOPED_TRACE(entry.info.name);
     const ConcaveSettings settings = {
-        .mid_phase = find_mid_phase("wide-bvh")->make,
+        .mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make,
         .narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); }};
     const auto again = entry.make(settings), fresh = entry.make(settings);
     again->bind(many);

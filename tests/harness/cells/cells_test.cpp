@@ -10,6 +10,7 @@
 #include "harness/base/error.h"
 #include "harness/cells/motion/motion_front.h"
 #include "harness/cells/read_cells.h"
+#include "harness/record/raw_row.h"
 #include "harness/stats/cells/cell_results.h"
 #include "harness/stats/cells/cell_rows.h"
 #include "harness/stats/cells/cell_tables.h"
@@ -38,9 +39,9 @@ Ran run(const cells::CellRequest& request, const std::filesystem::path& out) {
   Ran ran;
   ran.result = cells::run_cells(request, out, record::FolderStart::overwrite, [](const auto&) {});
   stats::write_cell_tables(out, request.name, out);
-  ran.grades = record::read_rows<stats::GradeRow>(out / "grades.csv");
-  ran.times = record::read_rows<stats::CellTimeRow>(out / "times.csv");
-  ran.best = record::read_rows<stats::CellBestRow>(out / "best.csv");
+  ran.grades = record::read_rows<stats::GradeRow>(out / "set_grades.csv");
+  ran.times = record::read_rows<stats::CellTimeRow>(out / "set_times.csv");
+  ran.best = record::read_rows<stats::CellBestRow>(out / "set_best.csv");
   return ran;
 }
 
@@ -55,6 +56,7 @@ void expect_sound(const Ran& ran, std::size_t cells) {
     EXPECT_GT(row.graded, 0);
   }
   for (const stats::CellTimeRow& row : ran.times) {
+    EXPECT_EQ(row.grade.status, "ok") << row.grade.cell << " " << row.grade.algorithm;
     EXPECT_GE(row.samples, 3) << row.grade.algorithm;  // a disturbed round may be left out
     EXPECT_GT(row.seconds, 0);
   }
@@ -172,17 +174,23 @@ TEST(Cells, OfFramesOfBroadPhases) {
   EXPECT_EQ(told["built"], told["pairs"]);
   // Both widths share their rounds.
   const std::filesystem::path out = folder.path() / "out";
-  std::set<std::int64_t> places;
+  std::set<std::int64_t> places, blocks;
+  std::map<std::string, int> twins;
   std::size_t samples = 0;
-  for (const auto& row : record::read_rows<stats::CellSampleRow>(out / "raw.csv")) {
-    if (row.round != 0 || row.group != ran.grades.front().group) continue;
-    if (row.cell != "pairs" && row.cell != "pairs, 2 threads") continue;
+  for (const auto& row : record::read_rows<record::RawRow>(out / "raw.csv")) {
+    if (row.square != 0 || row.round != 0 || row.input != ran.grades.front().group) continue;
+    if (row.family != "pairs" && row.family != "pairs, 2 threads") continue;
     ++samples;
+    EXPECT_EQ(row.threads, row.family == "pairs" ? 1 : 2);
     places.insert(row.position);
+    blocks.insert(row.block);
+    twins[row.family] += row.is_twin() ? 1 : 0;
   }
   EXPECT_GT(samples, 10U);
   EXPECT_EQ(places.size(), samples);
-  EXPECT_EQ(record::read_rows<stats::CellSpeedUpRow>(out / "speed_ups.csv").size(),
+  EXPECT_EQ(blocks.size(), 1U);
+  EXPECT_EQ(twins, (std::map<std::string, int>{{"pairs", 1}, {"pairs, 2 threads", 1}}));
+  EXPECT_EQ(record::read_rows<stats::CellSpeedUpRow>(out / "set_speed_ups.csv").size(),
             ran.grades.size() / 2);
 }
 
@@ -304,11 +312,10 @@ TEST(Cells, OfTheProjectsFilesAreRead) {
 }
 
 TEST(Columns, OfCellsAreDocumented) {
-  expect_documented("grades.csv of cells", record::column_docs<stats::GradeRow>());
-  expect_documented("raw.csv of cells", record::column_docs<stats::CellSampleRow>());
-  expect_documented("times.csv of cells", record::column_docs<stats::CellTimeRow>());
-  expect_documented("best.csv of cells", record::column_docs<stats::CellBestRow>());
-  expect_documented("speed_ups.csv of cells", record::column_docs<stats::CellSpeedUpRow>());
+  expect_documented("set_grades.csv", record::column_docs<stats::GradeRow>());
+  expect_documented("set_times.csv", record::column_docs<stats::CellTimeRow>());
+  expect_documented("set_best.csv", record::column_docs<stats::CellBestRow>());
+  expect_documented("set_speed_ups.csv", record::column_docs<stats::CellSpeedUpRow>());
   expect_documented("points.csv of motion", record::column_docs<cells::MotionPointRow>());
 }
 

@@ -118,7 +118,7 @@ TEST_P(StressHarm, IsToldApart) {
     const bool other_side = harm.harm == Harm::wrong_side || !word.empty();
     EXPECT_THAT(check::table(request, result.reaches, check::EnvelopeTable::side).rows().at(1),
                 ElementsAre("bad double", other_side ? "2" + word : "-"));
-    EXPECT_THAT(check::stress_page(request, result, "touchstone stress", "figures"),
+    EXPECT_THAT(check::stress_page(request, result, "touchstone check --axes", "figures"),
                 HasSubstr("| bad double | 2" + word + " |"));
     EXPECT_THAT(read("envelope.csv"), HasSubstr(to_string(harm.outcome)));
   }

@@ -104,6 +104,28 @@ TEST_F(TheCommandLine, IsRebuiltAsAShellReadsIt) {
   EXPECT_EQ(shell_line_, "touchstone paint 'a wall' --names 'it'\\''s,b' --wet --colour green");
 }
 
+TEST_F(TheCommandLine, HoldsCommandsWithinACommand) {
+  commands::Arguments outer = line_.add_command("fence", "Fences");
+  commands::Arguments inner = outer.nested("build", "Builds");
+  std::string posts = "none", shell_line;
+  inner.text("--posts", posts, "Posts").value_optional();
+  inner.job([&] {
+    shell_line = inner.shell_line("");
+    return 5;
+  });
+  EXPECT_EQ(line_.run({"fence", "build", "--posts", "3"}), 5);
+  EXPECT_EQ(shell_line, "touchstone fence build --posts 3");
+  EXPECT_EQ(line_.run({"fence", "build", "--posts"}), 5);
+  EXPECT_EQ(shell_line, "touchstone fence build --posts");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"fence"}, {"fence", "paint"}, {"fence", "--posts", "3"}}) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(line_.run(words), commands::exit_bad_request);
+    EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                testing::HasSubstr("Expected a command, one of: build."));
+  }
+}
+
 TEST_F(TheCommandLine, NamesTheCommandsWhereItKnowsNone) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(line_.run({"draw"}), commands::exit_bad_request);

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <set>
 
@@ -160,6 +161,60 @@ TEST_F(CheckCommand, KilledInTheMiddleAndGoneOnWith) {
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.text, HasSubstr("seed was '1' and is '2' now"));
   EXPECT_EQ(folder.read("out/grades.csv"), rows);
+}
+
+TEST_F(CheckCommand, CountsVerdicts) {
+  const Ran ran = check("--count 2000 --with gjk,mpr --regimes gap-1e-3 --seed 3");
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(column("soak.csv", "algorithm"), ElementsAre("gjk", "mpr"));
+  EXPECT_THAT(column("soak.csv", "drawn"), ElementsAre("2000"));
+  EXPECT_THAT(column("soak.csv", "seed"), ElementsAre("3"));
+  for (const char* option : {"--cases 3", "--seconds 1", "--page x.md", "--broad ours",
+                             "--save-certificates x.jsonl", "--axes gap"}) {
+    expect_refusal(std::string("--count 1000 ") + option + out(), "excludes --");
+  }
+  expect_refusal("--count 1000 --kind box" + out(), "expected some of another kind than box");
+}
+
+TEST_F(CheckCommand, FilesSayTheSameAsOptions) {
+  folder.write("count.toml",
+               "[check]\ncount = 2000\nwith = 'gjk'\nregimes = 'gap-1e-3'\nseed = 3\n");
+  folder.write("axes.toml", "[check]\naxes = 'gap'\ncases = 1\nnarrow = 'gjk'\n");
+  folder.write("both.toml", "[check]\naxes = 'all'\ncount = 2000\n");
+  for (const auto& [file, options, rows] :
+       {std::array<std::string, 3>{
+            "count.toml", "--count 2000 --with gjk --regimes gap-1e-3 --seed 3", "jobs.csv"},
+        {"axes.toml", "--axes gap --cases 1 --narrow gjk", "stress.csv"}}) {
+    const Ran ran = run_program("run " + path(file) + " --out " + path("file"));
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    EXPECT_EQ(check(options).status, 0);
+    EXPECT_EQ(folder.read("file/" + rows), folder.read("out/" + rows)) << file;
+  }
+  touchstone::expect_refusal("run " + path("both.toml") + out(), "expected it without `axes`",
+                             folder);
+}
+
+// `show` prints what the work ended with.
+TEST_F(CheckCommand, ItsSummaryIsShownAgain) {
+  for (const char* options : {"--narrow gjk --broad none --cases 1 --group gap",
+                              "--narrow gjk --axes gap --cases 1", "--count 1000 --narrow gjk"}) {
+    const Ran ran = check(options);
+    const Ran shown = run_program("show " + path("out"));
+    EXPECT_EQ(shown.status, 0) << shown.text;
+    EXPECT_THAT(shown.text, HasSubstr(path("out")));
+    EXPECT_THAT(ran.text, HasSubstr(shown.text)) << options;
+  }
+  // A file of somebody else stays.
+  folder.write("out/files.txt", "");
+  folder.write("out/summary.txt", "mine");
+  const Ran ran = check("--narrow gjk --broad none --cases 1 --group gap");
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_THAT(ran.text, HasSubstr("summary.txt is not of this program, and stays as it is"));
+  EXPECT_EQ(folder.read("out/summary.txt"), "mine");
+  touchstone::expect_refusal("show " + path("none"), "none: is not there", folder);
+  touchstone::expect_refusal("show " + path(""), "holds no summary.txt", folder);
+  touchstone::expect_refusal("show " + path("out") + " --out x",
+                             "--out was given; expected it with", folder);
 }
 
 TEST_F(CheckCommand, BadRequests) {

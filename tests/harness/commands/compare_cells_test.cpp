@@ -96,18 +96,18 @@ TEST_F(CompareCells, OtherQueriesAreNotComparable) {
 
 TEST_F(CompareCells, TablesAreWrittenAgain) {
   const std::string folder = MadeUpCells{}.write(folder_.path() / "a");
-  Ran ran = run_program("tables " + folder);
+  Ran ran = run_program("show --tables " + folder);
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(folder_.read("a/best.csv"), HasSubstr("hit,box,first,second,2"));
   EXPECT_THAT(folder_.read("a/tables.md"), HasSubstr("# Tables of made-up"));
   for (const char* option : {" --noisy", " --band 2", " --depth-error 0.1"}) {
-    EXPECT_EQ(run_program("tables " + folder + option).status, 2) << option;
+    EXPECT_EQ(run_program("show --tables " + folder + option).status, 2) << option;
   }
-  ran = run_program("tables " + folder + " --check");
+  ran = run_program("reproduce --results " + folder);
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("[cells]"));
   std::filesystem::remove(folder_.path() / "a/raw.csv");
-  ran = run_program("tables " + folder);
+  ran = run_program("show --tables " + folder);
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("raw.csv"));
 }

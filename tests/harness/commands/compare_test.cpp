@@ -123,11 +123,11 @@ TEST_F(CompareCommand, ProgramsAreRunInTurns) {
 }
 
 TEST_F(CompareCommand, TablesAreWrittenAndChecked) {
-  const Ran written = run_program("tables " + path("a") + " --band 1.1");
+  const Ran written = run_program("show --tables " + path("a") + " --band 1.1");
   EXPECT_EQ(written.status, 0) << written.text;
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "a/tables.md"));
   run_.write(folder_.path() / "b");
-  const std::string check = "tables " + path("b") + " --check " + path("a");
+  const std::string check = "reproduce " + path("a") + " --results " + path("b");
   Ran ran = run_program(check);
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("3 cells: 3 pass, 0 fail, 0 undecided; 0 answers"));
@@ -137,10 +137,10 @@ TEST_F(CompareCommand, TablesAreWrittenAndChecked) {
   EXPECT_EQ(ran.status, 1) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("3 cells: 2 pass, 1 fail, 0 undecided"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b/tables.md"));
-  expect_refusal("tables " + path("b") + " --check " + path("b"), "b/ratios.csv", folder_);
-  expect_refusal("tables " + path("none"), "none", folder_);
+  expect_refusal("reproduce " + path("b") + " --results " + path("b"), "b/ratios.csv", folder_);
+  expect_refusal("show --tables " + path("none"), "none", folder_);
   // The campaign of the reference is not one of the project's.
-  expect_refusal("tables --check " + path("a"), "fake.toml", folder_);
+  expect_refusal("reproduce " + path("a"), "fake.toml", folder_);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Draw : public testing::Test {
     options.insert(options.begin(), {"draw", scene, "--out", (folder_.path() / "a.png").string(),
                                      "--width", "64", "--height", "64"});
     commands::CommandLine line("");
-    commands::add_draw(line.add_command("draw", ""));
+    commands::add_scene_draw(line.add_command("draw", ""));
     testing::internal::CaptureStdout();
     EXPECT_EQ(line.run(options), commands::exit_done);
     return testing::internal::GetCapturedStdout();

@@ -21,7 +21,7 @@ class Output : public testing::Test {
   // Plans a soak of one shard.
   void plan(const std::string& out) {
     folder.write("soak.toml", "[soak]\npairs = 1000\nregimes = 'gap-1e-3'\nnarrow = 'gjk'\n");
-    const Ran ran = run_program("plan " + path("soak.toml") + " --shards 1 --out " + out);
+    const Ran ran = run_program("shards plan " + path("soak.toml") + " --shards 1 --out " + out);
     EXPECT_EQ(ran.status, 0) << ran.text;
     planned = ran.text;
   }
@@ -38,9 +38,10 @@ TEST_F(Output, AFullDiskIsNoticed) {
                R"("translation":[3,0,0],"quaternion_wxyz":[1,0,0,0]}})"
                "\n");
   for (const std::string& command :
-       {std::string("list"), "status " + path("plan"), std::string("--help"),
+       {std::string("list"), "shards status " + path("plan"), std::string("--help"),
         "query " + path("c.jsonl") + " --narrow gjk --task distance --out " + path("o.csv"),
-        "tables " + std::string(project_folder) + "/results/reference --out " + path("tables")}) {
+        "show --tables " + std::string(project_folder) + "/results/reference --out " +
+            path("tables")}) {
     const Ran ran = run_shell("{ " TOUCHSTONE_PROGRAM " " + command + " >/dev/full; }");
     EXPECT_EQ(ran.status, 2) << command;
     EXPECT_THAT(ran.text, HasSubstr("No space left on device")) << command;
@@ -51,10 +52,10 @@ TEST_F(Output, ControlCharactersAreEscaped) {
   plan(path("plan"));
   std::string facts = folder.read("plan/plan.csv");
   folder.write("plan/plan.csv", facts.replace(facts.find("name,soak"), 9, "name,\033]0;x\007"));
-  Ran ran = run_program("status " + path("plan"));
+  Ran ran = run_program("shards status " + path("plan"));
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, Not(HasSubstr("\033")));
-  ran = run_program("status '" + path("\033]0;title\007") + "'");
+  ran = run_program("shards status '" + path("\033]0;title\007") + "'");
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("\\x1b]0;title\\x07"));
   EXPECT_THAT(ran.text, Not(HasSubstr("\033")));
@@ -63,10 +64,10 @@ TEST_F(Output, ControlCharactersAreEscaped) {
 TEST_F(Output, CommandsToCopyAreQuoted) {
   plan("'" + path("two words") + "'");
   const std::string word = "'" + path("two words") + "'";
-  EXPECT_THAT(planned, HasSubstr("touchstone status " + word + "\n"));
-  EXPECT_THAT(planned, HasSubstr("touchstone merge " + word + " --out"));
+  EXPECT_THAT(planned, HasSubstr("touchstone shards status " + word + "\n"));
+  EXPECT_THAT(planned, HasSubstr("touchstone shards merge " + word + " --out"));
   EXPECT_THAT(planned, HasSubstr("'" + path("two words") + "/slurm.sh'\n"));
-  EXPECT_EQ(run_program("status " + word).status, 0);
+  EXPECT_EQ(run_program("shards status " + word).status, 0);
 }
 
 TEST_F(Output, ANameThatLeavesTheResultsIsRefused) {
@@ -96,7 +97,7 @@ TEST_F(Output, FoldersAreLookedAtBeforeTheWork) {
   folder.write("s.toml", "generator = 'uniform'\ncount = 100\n");
   folder.write("file", "mine");
   const Ran ran =
-      run_program("trade " + path("s.toml") + " --seconds 100000 --out " + path("file"));
+      run_program("advise --front " + path("s.toml") + " --seconds 100000 --out " + path("file"));
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("is no folder"));
   EXPECT_EQ(folder.read("file"), "mine");
@@ -106,7 +107,7 @@ TEST_F(Output, FoldersAreLookedAtBeforeTheWork) {
 TEST_F(Output, SignalsEndCasesWhereNothingIsLost) {
   const std::vector<std::string> works = {
       "check --narrow gjk --broad none --group gap,depth --cases 20 --seconds 100000",
-      "soak --narrow gjk --pairs 100000000", "stress --narrow gjk --cases 100"};
+      "check --narrow gjk --count 100000000", "check --axes --narrow gjk --cases 100"};
   for (const std::string& work : works) {
     for (const int signal : {SIGINT, SIGTERM}) {
       const std::string name = "out-" + work.substr(0, 4) + std::to_string(signal);

@@ -1,4 +1,4 @@
-// Tests of the scripts in plots/, through `touchstone plot`.
+// Tests of the scripts in plots/, through `touchstone show --figures`.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -14,10 +14,7 @@ const std::string python = std::string(project_folder) + "/plots/python";
 
 bool has_matplotlib() { return run_shell(python + " -c ''").status == 0; }
 
-Ran plot(const std::string& arguments) {
-  return run_shell(python + " -B " + std::string(project_folder) +
-                   "/plots/plot.py --program " TOUCHSTONE_PROGRAM " " + arguments);
-}
+Ran plot(const std::string& arguments) { return run_program("show --figures " + arguments); }
 
 // Makes scenes at three counts and two widths, with a peer, and narrow phases that fail and err.
 FakeRun varied_run() {
@@ -67,7 +64,7 @@ TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
   const std::string sweep = (folder.path() / "sweep").string();
-  const Ran made = run_program("stress --narrow gjk,ode --axes gap --cases 2 --out " + sweep);
+  const Ran made = run_program("check --narrow gjk,ode --axes gap --cases 2 --out " + sweep);
   ASSERT_EQ(made.status, 0) << made.text;
   const std::string own = folder.read("sweep/figures/stress_ours.svg");
   for (const char* out : {"one", "two"}) {
@@ -85,7 +82,8 @@ TEST(Plots, MapsOfAStressSweepInTheSameBytesTwice) {
 TEST(Plots, CellsWithACrossBesideWhoIsWrong) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const TemporaryFolder folder;
-  const std::string header = "group,cell,algorithm,origin,missed,false_hits,other,status,seconds\n";
+  const std::string header =
+      "group,cell,algorithm,origin,missed,false_hits,inexact,status,seconds\n";
   const std::string rows =
       "hit,box,first,ours,0,0,0,ok,1e-7\nhit,box,second,peer,3,0,0,ok,2e-7\n"
       "miss,box,first,ours,0,0,0,ok,2e-7\nmiss,box,second,peer,,,,unsupported,\n";

@@ -1,4 +1,4 @@
-// Tests of touchstone record.
+// Tests of touchstone scene record.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ class Record : public testing::Test {
 
   static int status_of(std::vector<std::string> arguments) {
     commands::CommandLine line("");
-    commands::add_record(line.add_command("record", ""));
+    commands::add_scene_record(line.add_command("record", ""));
     arguments.insert(arguments.begin(), "record");
     return line.run(arguments);
   }

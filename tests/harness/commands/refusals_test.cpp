@@ -178,7 +178,7 @@ TEST_F(Refusals, OutputsOverAScenesFiles) {
                "0,0,9,0,0,-1,inf\n");
   const std::string scene = path("scene.toml");
   for (const std::string& command :
-       {"represent " + scene + " --forms sphere",
+       {"scene represent " + scene + " --forms sphere",
         "query " + path("rays.csv") + " --in " + scene + " --task any --cast exact"}) {
     for (std::size_t i = 0; i < 3; ++i) {
       refuse(command + " --out " + path(names[i]), "would overwrite");
@@ -189,13 +189,13 @@ TEST_F(Refusals, OutputsOverAScenesFiles) {
   // Others write only names that end otherwise than a mesh's.
   std::filesystem::create_symlink(path("mesh.obj"), path("mesh.png"));
   std::filesystem::create_symlink(path("mesh.obj"), path("mesh.csv"));
-  refuse("draw " + scene + " --out " + path("mesh.png"), "would overwrite");
-  refuse("record " + scene + " --out " + path("mesh.csv"), "would overwrite");
-  for (const std::string command : {"trade", "advise"}) {
-    const std::string own = command == "trade" ? "trade.toml" : "advice.toml";
+  refuse("scene draw " + scene + " --out " + path("mesh.png"), "would overwrite");
+  refuse("scene record " + scene + " --out " + path("mesh.csv"), "would overwrite");
+  for (const std::string command : {"advise --front", "advise"}) {
+    const std::string own = command == "advise --front" ? "trade.toml" : "advice.toml";
     folder.write(own, texts[1]);
     refuse(command + " " + path(own) + " --out " + folder.path().string() +
-               (command == "trade" ? "" : " --max-error 0"),
+               (command == "advise --front" ? "" : " --max-error 0"),
            "would overwrite");
     EXPECT_EQ(folder.read(own), texts[1]);
   }

@@ -1,4 +1,4 @@
-// Tests of touchstone represent.
+// Tests of touchstone scene represent.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ class Represent : public testing::Test {
   std::string out() const { return (folder_.path() / "errors.csv").string(); }
   int status_of(std::vector<std::string> arguments) {
     commands::CommandLine line("");
-    commands::add_represent(line.add_command("represent", ""));
+    commands::add_scene_represent(line.add_command("represent", ""));
     arguments.insert(arguments.begin(), {"represent", scene_.string(), "--out", out()});
     return line.run(arguments);
   }

@@ -1,4 +1,4 @@
-// Tests of touchstone stress.
+// Tests of touchstone check --axes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ class StressCommand : public ::testing::Test {
   std::string path(const std::string& name) const { return (folder.path() / name).string(); }
   std::string out() const { return " --out " + path("out"); }
   Ran stress(const std::string& arguments) const {
-    return run_program("stress " + arguments + out());
+    return run_program("check " + arguments + out());
   }
   std::set<std::string> column(const std::string& file, const std::string& name) const {
     std::set<std::string> values;
@@ -28,7 +28,9 @@ class StressCommand : public ::testing::Test {
     return values;
   }
   void expect_refusal(const std::string& arguments, const std::string& text) {
-    touchstone::expect_refusal("stress " + arguments + out(), text, folder);
+    const bool has_axes = arguments.find("--axes") != std::string::npos;
+    touchstone::expect_refusal("check " + arguments + (has_axes ? "" : " --axes") + out(), text,
+                               folder);
   }
 
   TemporaryFolder folder;
@@ -96,10 +98,16 @@ TEST_F(StressCommand, BadRequests) {
     expect_refusal(std::string("--time-limit=") + value, "--time-limit");
   }
   expect_refusal("--cases 3 --quick", "--quick");
+  expect_refusal("--cases 100001", "--cases: found 100001; expected at most 100000 with --axes");
+  for (const char* option : {"--regimes gap-1e-3", "--group gap", "--seconds 1", "--broad ours",
+                             "--save-certificates x.jsonl", "--count 1000"}) {
+    expect_refusal(option, "--axes excludes --");
+  }
+  touchstone::expect_refusal("check --quick", "--quick requires --axes", folder);
   expect_refusal("--resume", "machine.csv: is not there");
   folder.write("file", "");
-  touchstone::expect_refusal("stress --quick --axes gap --out " + path("file/out"),
-                             "cannot be made", folder);
+  touchstone::expect_refusal("check --quick --axes gap --out " + path("file/out"), "cannot be made",
+                             folder);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Tests of touchstone trade, and of run with a file of a trade.
+// Tests of touchstone advise --front, and of run with a file of a trade.
 #include <string>
 
 #include "tests/harness/commands/program.h"
@@ -38,7 +38,7 @@ TEST(TradeCommand, OfMotionComparesSubstepsWithCasts) {
   const TemporaryFolder folder;
   const std::string file =
       folder.write("scene.toml", "generator = \"bullets\"\ncount = 60\nframes = 1\n").string();
-  const std::string ask = "trade " + file + " --motion --no-figure --seconds 1 --out " +
+  const std::string ask = "advise --front " + file + " --motion --no-figure --seconds 1 --out " +
                           (folder.path() / "out").string();
   const Ran ran = run_program(ask);
   ASSERT_EQ(ran.status, 0) << ran.text;
@@ -60,12 +60,12 @@ TEST(TradeCommand, BadRequestsAreRefused) {
   folder.write("scene.toml", scene);
   const std::string file = folder.write("mine.toml", grid).string();
   const std::string at = folder.path().string() + "/";
-  expect_refusal("trade " + at + "none.toml --out " + at + "out", "none.toml: no such file",
-                 folder);
-  expect_refusal("trade " + at + "scene.toml --task touch", "--task", folder);
-  expect_refusal("trade " + at + "scene.toml --task signed", "intersect", folder);
-  expect_refusal("trade " + at + "scene.toml --error luck", "--error", folder);
-  expect_refusal("trade " + at + "scene.toml --threads 0", "--threads", folder);
+  expect_refusal("advise --front " + at + "none.toml --out " + at + "out",
+                 "none.toml: no such file", folder);
+  expect_refusal("advise --front " + at + "scene.toml --task touch", "--task", folder);
+  expect_refusal("advise --front " + at + "scene.toml --task signed", "intersect", folder);
+  expect_refusal("advise --front " + at + "scene.toml --error luck", "--error", folder);
+  expect_refusal("advise --front " + at + "scene.toml --threads 0", "--threads", folder);
   expect_refusal("run " + file + " --resume --out " + at + "out",
                  "a trade begins anew; expected no --resume", folder);
   expect_refusal("run " + file + " --strict --out " + at + "out",

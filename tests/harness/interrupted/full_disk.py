@@ -140,9 +140,9 @@ def fill(options, whole, disk):
 
 def fill_with_shards(options, whole, disk):
     plan, merged = disk.folder / "plan", disk.folder / "merged"
-    words = [("plan", CAMPAIGN, "--shards", SHARDS, "--out", plan)]
+    words = [("shards", "plan", CAMPAIGN, "--shards", SHARDS, "--out", plan)]
     words += [("run", "--plan", plan, "--shard", shard) for shard in range(SHARDS)]
-    words += [("merge", plan, "--out", merged)]
+    words += [("shards", "merge", plan, "--out", merged)]
     done = 0
     # The parts of the shards, and what is merged of them.
     pages = 3 * pages_of(whole)

@@ -60,11 +60,11 @@ def main():
         killer = Killer(options.program, output, random.Random(options.seed), kills)
         rounds = 0
         while rounds < 2 or any(count > 0 for count in killer.left.values()):
-            killer("plan", "plan", CAMPAIGN, "--shards", SHARDS, "--out", plan)
+            killer("plan", "shards", "plan", CAMPAIGN, "--shards", SHARDS, "--out", plan)
             for shard in range(SHARDS):
                 killer("run", "run", "--plan", plan, "--shard", shard)
             while True:
-                killer("merge", "merge", plan, "--out", merged)
+                killer("merge", "shards", "merge", plan, "--out", merged)
                 expect_same(merged, whole, of_shards=True)
                 left = sorted(p.name for p in merged.parent.iterdir())
                 expect(left == ["merged", "output", "plan", "whole"], f"left behind: {left}")

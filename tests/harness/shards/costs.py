@@ -30,12 +30,12 @@ def rows_of(file):
 
 def cost_of(program, file, shards, do, folder):
     plan, results = folder / "plan", folder / "results"
-    plan_seconds, _ = measured(program, "plan", file, "--shards", shards, "--out", plan)
+    plan_seconds, _ = measured(program, "shards", "plan", file, "--shards", shards, "--out", plan)
     planned = rows_of(plan / "shards.csv")
     chosen = sorted({len(planned) * k // do for k in range(do)})
     for shard in chosen:
         measured(program, "run", "--plan", plan, "--shard", shard, wrong_is_fine=True)
-    merge_seconds, _ = measured(program, "merge", plan, "--partial", "--out", results, wrong_is_fine=True)
+    merge_seconds, _ = measured(program, "shards", "merge", plan, "--partial", "--out", results, wrong_is_fine=True)
     facts = {row["name"]: row["value"] for row in rows_of(plan / "plan.csv")}
     done = rows_of(results / "shards.csv")
     estimates = [float(row["seconds"]) for row in planned]

@@ -40,6 +40,8 @@ class Task:
     def __init__(self, plan, shard, process):
         self.plan, self.shard, self.process = plan, shard, process
         text = pathlib.Path("/proc", str(process), "environ").read_bytes().decode()
+        if not text:
+            raise ProcessLookupError(f"process {process} is about to run another program")
         self.environment = dict(line.partition("=")[::2] for line in text.split("\0"))
 
     @property
@@ -79,7 +81,7 @@ class Plan:
         self.program, self.file, self.folder, self.compare = program, file, pathlib.Path(folder), compare
         self.whole = self.folder.with_name(self.folder.name + "-whole")
         self.results = self.folder / "results"
-        self.touchstone("plan", file, "--shards", SHARDS, "--out", self.folder, *flags)
+        self.touchstone("shards", "plan", file, "--shards", SHARDS, "--out", self.folder, *flags)
         for script in ("slurm.sh", "parallel.sh"):
             own = (HERE.parents[2] / "harness/shards" / script).read_bytes()
             expect((self.folder / script).read_bytes() == own, f"{script} of the plan is another than the project's")
@@ -138,7 +140,7 @@ class Plan:
                 if fits(task) and task.hold():
                     return task
             time.sleep(0.01)
-        raise Fault(f"no shard of {self.folder} was caught in {seconds:g} s\n{self.touchstone('status', self.folder)}")
+        raise Fault(f"no shard of {self.folder} was caught in {seconds:g} s\n{self.touchstone('shards', 'status', self.folder)}")
 
     def expect_same(self):
         """The results have the rows of the undisturbed run: none is lost, none is there twice."""
@@ -154,6 +156,7 @@ class Plan:
             words = pathlib.Path("/proc", process, "cmdline").read_bytes().decode(errors="replace").split("\0")
         except OSError:
             return None
+        words = [word for word in words if not word.startswith("--of-build=")]  # of one program for the other
         marks = ["run", "--plan", str(self.folder), "--shard"]
         return int(words[5]) if words[1:5] == marks else None
 

@@ -56,7 +56,7 @@ class Model:
         """Does the only shard of a plan that is as small as can be."""
         write_soak(folder / "model.toml", 1)
         plan = folder / "model"
-        measured(program, "plan", folder / "model.toml", "--shards", 1, "--out", plan)
+        measured(program, "shards", "plan", folder / "model.toml", "--shards", 1, "--out", plan)
         measured(program, "run", "--plan", plan, "--shard", 0)
         part = path_of(plan, 0, 0, 1)
         self.machine = (part / "machine.csv").read_text()
@@ -94,13 +94,13 @@ def simulate(program, model, shards, rows, folder):
     soak, plan, out = folder / "soak.toml", folder / "plan", folder / "out"
     write_soak(soak, max(1, rows // 1000) * shards)
     found = {"shards": shards, "rows": shards * rows}
-    found["plan_seconds"], found["plan_mb"] = measured(program, "plan", soak, "--shards", shards, "--out", plan)
+    found["plan_seconds"], found["plan_mb"] = measured(program, "shards", "plan", soak, "--shards", shards, "--out", plan)
     begin = time.monotonic()
     model.do_all(plan, rows)
     found["array_seconds"] = time.monotonic() - begin
     found["files"] = sum(len(files) for _, _, files in os.walk(plan))
-    found["status_seconds"], found["status_mb"] = measured(program, "status", plan)
-    found["merge_seconds"], found["merge_mb"] = measured(program, "merge", plan, "--out", out)
+    found["status_seconds"], found["status_mb"] = measured(program, "shards", "status", plan)
+    found["merge_seconds"], found["merge_mb"] = measured(program, "shards", "merge", plan, "--out", out)
     for made in (plan, out):
         shutil.rmtree(made)
     return found

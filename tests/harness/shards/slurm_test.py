@@ -121,7 +121,7 @@ class Test:
         """Runs the commands that merges print, until a job has joined all shards. Returns how many it took."""
         commands = 0
         while not (plan.results / "machine.csv").exists():
-            text = plan.touchstone("merge", plan.folder, "--out", plan.results, status=2)
+            text = plan.touchstone("shards", "merge", plan.folder, "--out", plan.results, status=2)
             command = re.search(r"to run them: (.*)", text)
             expect(command and commands < most, f"after {commands} commands:\n{text}")
             commands += 1

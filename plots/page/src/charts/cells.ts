@@ -81,7 +81,7 @@ function chart_of(marks: Mark[], names: string[], cells: string[], group: string
 
 export function time_in_cells(folder: Folder, pick: (row: Row) => void): HTMLElement | null {
   const usable = folder
-    .rows("times.csv")
+    .rows("set_times.csv")
     .filter((row) => row.text("cell") !== "" && row.number("seconds") > 0);
   const groups = [...grouped(usable, (row) => row.text("group")).entries()];
   if (groups.length === 0) return null;

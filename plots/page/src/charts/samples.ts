@@ -19,7 +19,7 @@ const comparable = (label: string): string =>
 
 // The tables give a row of raw.csv this label.
 function label_of(raw: Row): string {
-  if (raw.text("cell")) return comparable(raw.text("algorithm"));
+  if (raw.text("query_kind")) return comparable(raw.text("algorithm"));
   const narrow = raw.text("narrow");
   if (!narrow) return raw.text("broad");
   const gap = short(raw.text("duality_gap"));
@@ -38,6 +38,13 @@ function label_of(raw: Row): string {
 const same_columns = set_columns.filter((column) => column !== "pairs_of");
 
 function is_in_set(raw: Row, cell: Row): boolean {
+  if (raw.text("query_kind")) {
+    return (
+      raw.text("twin") !== "1" &&
+      raw.text("input") === cell.text("group") &&
+      raw.text("family") === cell.text("cell")
+    );
+  }
   const pairs_of = raw.text("narrow") ? raw.text("broad") : "";
   return (
     pairs_of === cell.text("pairs_of") &&
@@ -55,13 +62,12 @@ function samples_in(folder: Folder, cell: Row): Sample[] {
   const algorithm = comparable(cell.text("algorithm"));
   const samples = new Map<string, Sample>();
   for (const row of folder.rows("raw.csv")) {
-    const is_sample = row.text("kind") === "sample" || row.text("cell") !== "";
-    if (!is_sample || label_of(row) !== algorithm || !is_in_set(row, cell)) continue;
+    if (row.text("kind") !== "sample" || label_of(row) !== algorithm || !is_in_set(row, cell)) continue;
     const phase = row.text("phase");
     // A peer's conversion is a part of another phase.
     if (phase === "convert") continue;
-    // A sample of a cell is the time of a query as it stands.
-    const units = row.text("cell") ? 1 : row.number(phase === "narrow" ? "pair_count" : "frames");
+    const is_of_queries = phase === "narrow" || phase === "answer";
+    const units = row.number(is_of_queries ? "pair_count" : "frames");
     const key = ["process", "square", "round", "position"]
       .map((column) => row.text(column))
       .join("-");

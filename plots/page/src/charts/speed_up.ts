@@ -51,9 +51,10 @@ function chart_of(rows: Row[]): Element {
 }
 
 export function speed_up(folder: Folder): HTMLElement | null {
-  if (!folder.has("speed_ups.csv")) return null;
+  const file = folder.has("speed_ups.csv") ? "speed_ups.csv" : "set_speed_ups.csv";
+  if (!folder.has(file)) return null;
   const sets = [
-    ...grouped(folder.rows("speed_ups.csv"), (row) => set_key(row, ["threads"])).values(),
+    ...grouped(folder.rows(file), (row) => set_key(row, ["threads"])).values(),
   ];
   return part(
     `${folder.anchor}-threads`,
@@ -64,6 +65,6 @@ export function speed_up(folder: Folder): HTMLElement | null {
       sets.map((set) => set_text(set[0]!, ["threads"])),
       (place) => chart_of(sets[place]!),
     ),
-    folder.grid("speed_ups.csv", { lead: ["scene", "bodies", "algorithm", "threads", "speed_up"] }),
+    folder.grid(file, { lead: ["scene", "bodies", "algorithm", "threads", "speed_up"] }),
   );
 }

@@ -15,7 +15,7 @@ const outcomes = [
 
 export const outcome_legend =
   "The worst outcome at each value. No sign: right. ~: rounded by the conversion to the algorithm's numbers. " +
-  "?: a failure that was said. ✗: silently wrong. !: crashed. …: hung.";
+  "?: gave up. ✗: silently wrong. !: crashed. …: hung.";
 
 export interface Cell {
   algorithm: string;

@@ -65,7 +65,7 @@ void main() {
   gl_FragColor = vec4((marked ? mark : ground) * (0.5 + 0.55 * max(light, 0.0)), 1.0);
 }`;
 
-// A palette has the colours of the three states: apart, boxes that overlap, contact. `touchstone draw` has those of
+// A palette has the colours of the three states: apart, boxes that overlap, contact. `touchstone scene draw` has those of
 // the first.
 export interface Palette {
   name: string;

@@ -12,7 +12,7 @@ export function answers(folder: Folder, origins: Record<string, string>): string
     ...timed(folder),
     ...fastest(folder.rows("broad_best.csv"), "peer", "peer_ratio", "Broad phases"),
     ...fastest(folder.rows("narrow_best.csv"), "right_peer", "right_peer_ratio", "Narrow phases"),
-    ...fastest(folder.rows("best.csv"), "peer", "ratio", "Cells"),
+    ...fastest(folder.rows("set_best.csv"), "peer", "ratio", "Cells"),
     ...agreed(folder),
     ...checked(folder, origins),
     ...swept(folder),
@@ -24,7 +24,7 @@ export function answers(folder: Folder, origins: Record<string, string>): string
 }
 
 function timed(folder: Folder): string[] {
-  const times = folder.rows("times.csv");
+  const times = [...folder.rows("times.csv"), ...folder.rows("set_times.csv")];
   if (times.length === 0) return [];
   const sets = distinct(times.map((row) => set_key(row))).length;
   const algorithms = distinct(times.map((row) => row.text("algorithm"))).length;
@@ -95,9 +95,9 @@ function checked(folder: Folder, origins: Record<string, string>): string[] {
     if (rows.length === 0) return [];
     return [
       `${count_text(total(rows, "answers"))} answers of ${subject} were graded against exact arithmetic: ` +
-        `${count_text(total(rows, "silent"))} are on the wrong side of contact and do not say so${most_silent(rows)}, ` +
-        `${count_text(total(rows, "honest"))} are failures that were said, ` +
-        `${count_text(total(rows, "crashed"))} are crashes.`,
+        `${count_text(total(rows, "silent"))} are silently on the wrong side of contact${most_silent(rows)}, ` +
+        `${count_text(total(rows, "honest"))} gave up, ` +
+        `${count_text(total(rows, "crashed"))} crashed.`,
     ];
   });
 }
@@ -120,7 +120,7 @@ function soaked(folder: Folder): string[] {
   if (rows.length === 0) return [];
   return [
     `In a soak ${count_text(total(rows, "pairs"))} verdicts were compared with exact ones: ` +
-      `${count_text(total(rows, "silent"))} silently wrong, ${count_text(total(rows, "lost"))} lost.`,
+      `${count_text(total(rows, "silent"))} silently wrong, ${count_text(total(rows, "lost"))} failed.`,
   ];
 }
 

@@ -12,7 +12,9 @@ import type { Folder } from "../tables/folder";
 import type { Row } from "../tables/table";
 
 export function speed(folder: Folder): HTMLElement | null {
-  if (!folder.has("times.csv")) return null;
+  // A folder has the times of scenes, or of sets of queries.
+  const times = folder.has("times.csv") ? "times.csv" : "set_times.csv";
+  if (!folder.has(times)) return null;
   const samples = make("div", { id: `${folder.anchor}-samples`, "aria-live": "polite" });
   const sampled = folder.files.includes("raw.csv");
   const pick = (row: Row): void => {
@@ -35,7 +37,7 @@ export function speed(folder: Folder): HTMLElement | null {
       "Times of all sets",
       quiet(`Seconds: medians with 95 % intervals.${hint}`),
       samples,
-      folder.grid("times.csv", {
+      folder.grid(times, {
         lead: [
           "group",
           "cell",

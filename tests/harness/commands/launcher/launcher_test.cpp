@@ -23,12 +23,23 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-struct Row {
+struct CommandRow {
   std::string program, name, heading;
 };
 
-const std::vector<Row> table = {
+const std::vector<CommandRow> command_table = {
 #define TOUCHSTONE_COMMAND(program, name, takes, heading, about) {#program, #name, heading},
+#include "harness/commands/commands.inl"
+};
+
+// The commands within others, such as "scene draw".
+const std::vector<std::string> nested = {
+#define TOUCHSTONE_NESTED(command, name, takes, about) #command " " #name,
+#include "harness/commands/commands.inl"
+};
+
+const std::vector<std::string> old_names = {
+#define TOUCHSTONE_RENAMED(name, line) #name,
 #include "harness/commands/commands.inl"
 };
 
@@ -48,7 +59,9 @@ struct Launched {
 class Launcher : public testing::Test {
  protected:
   Launcher() {
-    make_folders({"bin", "tree/harness/commands", "tree/plots/page", "tree/algorithms"});
+    make_folders(
+        {"bin", "tree/harness/commands", "tree/plots/page", "tree/algorithms", "tree/tests"});
+    fs::copy(project("tests/CMakeLists.txt"), path("tree/tests/CMakeLists.txt"));
     fs::copy(project("touchstone"), path("tree/touchstone"));
     fs::copy(project("harness/commands/commands.inl"), path("tree/harness/commands/commands.inl"));
     fs::create_directory_symlink(project("datasets"), path("tree/datasets"));
@@ -66,7 +79,7 @@ class Launcher : public testing::Test {
         printf '#!/bin/sh\necho "%s $*" >>"$LOG/ran"\n' "$target" >"$folder/$target"
         chmod +x "$folder/$target"
       done)");
-    write_program("tree/plots/python", R"([[ $1 == -c ]] || echo "plot $*" | tee -a "$LOG/ran")");
+    write_program("tree/plots/python", R"([[ $1 == -c ]] || echo "python $*" | tee -a "$LOG/ran")");
     write_program("tree/plots/page/make", R"(mkdir -p "${1%/*}" && touch "$1")");
   }
 
@@ -129,7 +142,7 @@ std::vector<std::string> lines_of_readme() {
 
 TEST_F(Launcher, BuildsWhatEveryCommandOfTheReadmeRuns) {
   std::map<std::string, std::string> program;
-  for (const Row& row : table) program[row.name] = row.program;
+  for (const CommandRow& row : command_table) program[row.name] = row.program;
   std::vector<std::string> lines = lines_of_readme();
   lines.emplace_back("test");
   std::set<std::string> seen;
@@ -143,7 +156,7 @@ TEST_F(Launcher, BuildsWhatEveryCommandOfTheReadmeRuns) {
     if (name == "bench") programs = {"touchstone_bench"};
     expect_built(line, programs);
   }
-  for (const Row& row : table)
+  for (const CommandRow& row : command_table)
     EXPECT_TRUE(seen.contains(row.name)) << row.name << " of commands.inl";
 }
 
@@ -171,6 +184,8 @@ TEST_F(Launcher, KnowsTheKeysOfAFileInEverySpelling) {
       expect_built("run " + file.string(), both);
     }
   }
+  for (const std::string& words : nested) expect_built(words + " x", both);
+  expect_built("check --axes", both);
   expect_built("--isa avx2 run --plan DIR --shard 1", both);
   expect_built("run --plan=DIR --shard=1", both);
   expect_built("run --report", both);
@@ -187,13 +202,18 @@ TEST_F(Launcher, HelpsWithoutBuilding) {
   const Ran ran = run_shell(line + "--help");
   EXPECT_EQ(ran.status, 0);
   std::set<std::string> headings;
-  for (const Row& row : table) {
+  for (const CommandRow& row : command_table) {
     headings.insert(row.heading);
     EXPECT_THAT(ran.text, HasSubstr("\n" + row.heading + "\n"));
     EXPECT_THAT(ran.text, HasSubstr("\n  " + row.name + " "));
     const Ran of_one = run_shell(line + row.name + " --help");
     EXPECT_EQ(of_one.status, 0) << of_one.text;
     EXPECT_NE(of_one.text, "") << row.name;
+  }
+  for (const std::string& words : nested) {
+    const Ran of_one = run_shell(line + words + " --help");
+    EXPECT_EQ(of_one.status, 0) << of_one.text;
+    EXPECT_THAT(of_one.text, HasSubstr("Usage: ./touchstone " + words + " ")) << words;
   }
   EXPECT_EQ(headings.size(), 5u);
   EXPECT_FALSE(fs::exists(path("tree/build")));
@@ -209,6 +229,12 @@ TEST_F(Launcher, RefusesUnknownCommandsBeforeItBuilds) {
   refuse("--isa avx2 qeury x", "no command 'qeury'; did you mean query?");
   refuse("xyzzy", "no command 'xyzzy'; expected one of: run compare ");
   refuse("", "found no command");
+  refuse("scene drw x", "no command 'drw' of `scene`; did you mean draw?");
+  refuse("shards xyzzy", "no command 'xyzzy' of `shards`; expected one of: plan status merge\n");
+  refuse("scene --isa avx2", "`scene` takes a command of its own; expected one of: draw ");
+  refuse("test harness/none",
+         "no room 'harness/none' has tests; expected one of: algorithms/core ");
+  for (const std::string& name : old_names) refuse(name + " x", "`" + name + "` is now `");
   refuse("--isa avx2 test", "found '--isa' before `test`");
   std::ofstream(path("tree/harness/commands/commands.inl"), std::ios::app)
       << "TOUCHSTONE_RENAMED(asks, \"query FILE --in MESH\")\n";
@@ -217,6 +243,36 @@ TEST_F(Launcher, RefusesUnknownCommandsBeforeItBuilds) {
       << "TOUCHSTONE_COMMAND(touchstone, two words)\n";
   refuse("run", "found 'TOUCHSTONE_COMMAND(touchstone, two words)'; expected a row");
   EXPECT_FALSE(fs::exists(path("tree/build")));
+}
+
+// Launcher and program say the same, but for the path of the launcher.
+TEST_F(Launcher, SaysTheNewLineOfAnOldOne) {
+  const std::vector<std::pair<std::string, std::string>> lines = {
+      {"stress --axes gap --cases 2", "check --axes gap --cases 2"},
+      {"stress --axes=gap", "check --axes=gap"},
+      {"stress --cases 2", "check --axes --cases 2"},
+      {"soak --narrow gjk --pairs 1000", "check --narrow gjk --count 1000"},
+      {"soak --pairs=1000", "check --count=1000"},
+      {"soak", "check --count"},
+      {"--isa avx2 trade 'my scene.toml' --motion", "advise 'my scene.toml' --motion --front"},
+      {"plot results --out it\\'s", "show results --out 'it'\\''s' --figures"},
+      {"draw a.toml --out a.png", "scene draw a.toml --out a.png"},
+      {"merge d --partial", "shards merge d --partial"},
+      {"tables", "show RESULTS --tables`; without RESULTS or with --check it is `reproduce"}};
+  for (const auto& [old, line] : lines) {
+    const std::string said = "` is now `./touchstone " + line + "`\n";
+    EXPECT_THAT(launch(old).text, HasSubstr(said)) << old;
+    const Ran ran = run_program(old);
+    EXPECT_EQ(ran.status, 2) << old;
+    EXPECT_THAT(ran.text, HasSubstr("` is now `touchstone " + line + "`\n")) << old;
+  }
+}
+
+TEST_F(Launcher, BuildsAndRunsTheTestsOfARoom) {
+  const Launched launched = launch("test harness/stats/ --stop-on-failure");
+  EXPECT_EQ(launched.asked, (std::set<std::string>{"test_harness_stats"}));
+  EXPECT_THAT(launched.ran, HasSubstr(" -R ^harness/stats/ --no-tests=error --stop-on-failure"));
+  EXPECT_EQ(launch("test -R x").asked, (std::set<std::string>{"all"}));
 }
 
 TEST_F(Launcher, WaitsForBuildsAloneAndSaysForWhose) {
@@ -257,7 +313,7 @@ TEST_F(Launcher, SaysThatAnInstallationWasInterrupted) {
   write_program("tree/plots/python", "exit 127");
   write_program("bin/apt-get",
                 "echo \"E: dpkg was interrupted, run 'dpkg --configure -a'\"; exit 100");
-  const Launched launched = launch("plot results");
+  const Launched launched = launch("show results --figures");
   EXPECT_EQ(launched.status, 2);
   EXPECT_THAT(launched.text, HasSubstr("installing 1 package through apt: python3-matplotlib\n"));
   EXPECT_THAT(launched.text, HasSubstr("dpkg --configure -a` ends it, then try again"));

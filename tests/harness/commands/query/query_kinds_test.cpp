@@ -155,10 +155,10 @@ TEST_F(QueryKinds, OldCommandsNameTheNewLine) {
   for (const auto& [old, line] : std::vector<std::pair<std::string, std::string>>{
            {"rays", "query RAYS.csv --in MESH"},
            {"points", "query POINTS.csv --in MESH"},
-           {"cast", "query CASES.jsonl --kind cast"},
-           {"ccd", "query QUERIES.csv --kind feature --features vertex-face"},
-           {"manifold", "query CASES.jsonl --kind manifold"},
-           {"pairs", "query BOXES.csv"}}) {
+           {"cast", "query --kind cast file"},
+           {"ccd", "query --kind=feature file"},
+           {"manifold", "query --kind manifold file"},
+           {"pairs", "query file"}}) {
     expect_refusal(old + " file", "`" + old + "` is now `touchstone " + line, folder);
   }
 }
