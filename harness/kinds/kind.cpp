@@ -7,6 +7,9 @@
 #include <array>
 #include <string>
 
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+
 namespace touchstone::kinds {
 
 std::span<const Kind* const> kinds() {
@@ -15,11 +18,31 @@ std::span<const Kind* const> kinds() {
   return all;
 }
 
+std::span<const Kind* const> asked_kinds() {
+  static const std::array<const Kind*, 9> all = {&pair_kind(), &box_kind(),       &mesh_kind(),
+                                                 &ray_kind(),  &scene_ray_kind(), &point_kind(),
+                                                 &cast_kind(), &feature_kind(),   &manifold_kind()};
+  return all;
+}
+
 const Kind* find_kind(std::string_view name) {
   const auto all = kinds();
   const auto at = std::ranges::find_if(
       all, [&](const Kind* kind) { return kind->name() == name || kind->old_name() == name; });
   return at == all.end() ? nullptr : *at;
+}
+
+const Kind* find_asked_kind(std::string_view name) {
+  const auto words = registry::kind_named(name);
+  const std::string_view word = words ? words->word : name;
+  const auto all = asked_kinds();
+  const auto at = std::ranges::find_if(
+      all, [&](const Kind* kind) { return kind->name() == word || kind->old_name() == word; });
+  return at == all.end() ? nullptr : *at;
+}
+
+bool Kind::verify(const std::string& proofs, const std::filesystem::path& /*file*/) const {
+  throw base::InputError(proofs, 0, fmt::format("the kind {} has no proofs", name()));
 }
 
 std::span<const Family> Kind::families() const {

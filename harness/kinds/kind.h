@@ -16,6 +16,10 @@
 
 namespace touchstone::kinds {
 
+class Questions;
+struct QuestionInput;
+struct QueryOption;
+
 class Kind {
  public:
   struct Words {
@@ -51,6 +55,15 @@ class Kind {
   // All families in a stable order, first those that are no values of axes.
   std::span<const Family> families() const;
   virtual std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const = 0;
+
+  // What of a user's own file is asked (questions.h): its options beside those of every kind.
+  virtual std::vector<QueryOption> query_options() const = 0;
+  // Selects algorithms, reads the questions and checks the options. Throws InputError for what is wrong in them.
+  virtual std::unique_ptr<Questions> read(const QuestionInput& input) const = 0;
+  // Verifies proofs in a file; with the file of questions, if any, also that each is of one of them. Prints what is
+  // refused and why. Returns true if none is. Throws InputError where the kind has no proofs, as this one does.
+  virtual bool verify(const std::string& proofs, const std::filesystem::path& file) const;
+
   // The sets that campaigns time, by the keys of a table; files are relative to `home`. Throws InputError with
   // file, line and what was expected.
   virtual std::vector<PlannedSet> timed_sets(files::TomlTable& table,
@@ -66,9 +79,13 @@ class Kind {
 
 // All kinds that have families, in the order of pages and tables.
 std::span<const Kind* const> kinds();
+// These, and those that are asked alone.
+std::span<const Kind* const> asked_kinds();
 
-// Returns the kind with this name or old name; null if there is none.
+// Returns the kind that has families with this name or old name; null if there is none.
 const Kind* find_kind(std::string_view name);
+// Returns the kind with this name, old name, or other word of the registry; null if there is none.
+const Kind* find_asked_kind(std::string_view name);
 
 // The families of all kinds, in the order of kinds(): those that are no values of axes, and those that are.
 std::vector<const Family*> case_families();
@@ -81,5 +98,8 @@ const Kind& point_kind();
 const Kind& cast_kind();
 const Kind& feature_kind();
 const Kind& scene_ray_kind();
+const Kind& pair_kind();
+const Kind& box_kind();
+const Kind& manifold_kind();
 
 }  // namespace touchstone::kinds

@@ -12,6 +12,7 @@
 #include "harness/kinds/cast/cast_families.h"
 #include "harness/kinds/cast/cast_forms.h"
 #include "harness/kinds/cast/cast_grade.h"
+#include "harness/kinds/cast/cast_questions.h"
 #include "harness/kinds/cast/cast_sets.h"
 #include "harness/kinds/grading.h"
 #include "harness/process/queries/solve_cast.h"
@@ -233,6 +234,14 @@ class CastKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<CastBatch>(family.number, range);
+  }
+
+  std::vector<QueryOption> query_options() const override { return cast_options(); }
+  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
+    return read_cast_questions(input);
+  }
+  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
+    return verify_cast_proofs(proofs, file);
   }
 
   std::vector<PlannedSet> timed_sets(files::TomlTable& table,

@@ -9,6 +9,7 @@
 #include "harness/files/text_file.h"
 #include "harness/kinds/feature/feature_forms.h"
 #include "harness/kinds/feature/feature_grade.h"
+#include "harness/kinds/feature/feature_questions.h"
 #include "harness/kinds/feature/feature_sets.h"
 #include "harness/kinds/grading.h"
 
@@ -264,6 +265,11 @@ class FeatureKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<FeatureBatch>(family.number, range);
+  }
+
+  std::vector<QueryOption> query_options() const override { return feature_options(); }
+  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
+    return read_feature_questions(input);
   }
 
   std::vector<PlannedSet> timed_sets(files::TomlTable& table,

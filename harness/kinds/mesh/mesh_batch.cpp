@@ -12,6 +12,7 @@
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh/mesh_families.h"
 #include "harness/kinds/mesh/mesh_grade.h"
+#include "harness/kinds/mesh/mesh_questions.h"
 #include "harness/kinds/mesh/mesh_sets.h"
 
 namespace touchstone::kinds {
@@ -241,6 +242,14 @@ class MeshKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<MeshBatch>(family.number, range);
+  }
+
+  std::vector<QueryOption> query_options() const override { return mesh_options(); }
+  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
+    return read_mesh_questions(input);
+  }
+  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
+    return verify_mesh_proofs(proofs, file);
   }
 
   std::vector<PlannedSet> timed_sets(files::TomlTable& table,

@@ -12,6 +12,7 @@
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/point/point_grade.h"
+#include "harness/kinds/point/point_questions.h"
 #include "harness/kinds/point/point_sets.h"
 #include "harness/scene/writing/scene_writer.h"
 
@@ -153,6 +154,14 @@ class PointKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<PointBatch>(family.number, range);
+  }
+
+  std::vector<QueryOption> query_options() const override { return point_options(); }
+  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
+    return read_point_questions(input);
+  }
+  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
+    return verify_point_proofs(proofs, file);
   }
 
   std::vector<PlannedSet> timed_sets(files::TomlTable& table,

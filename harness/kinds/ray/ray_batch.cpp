@@ -14,6 +14,7 @@
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/ray/ray_file.h"
 #include "harness/kinds/ray/ray_grade.h"
+#include "harness/kinds/ray/ray_questions.h"
 #include "harness/kinds/ray/ray_sets.h"
 #include "harness/scene/writing/scene_writer.h"
 
@@ -156,6 +157,14 @@ class RayKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<RayBatch>(family.number, range);
+  }
+
+  std::vector<QueryOption> query_options() const override { return ray_options(); }
+  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
+    return read_ray_questions(input);
+  }
+  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
+    return verify_ray_proofs(proofs, file);
   }
 
   std::vector<PlannedSet> timed_sets(files::TomlTable& table,

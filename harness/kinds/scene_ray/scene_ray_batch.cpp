@@ -14,6 +14,8 @@
 #include "harness/kinds/exact_forms.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/ray/ray_file.h"
+#include "harness/kinds/ray/ray_questions.h"
+#include "harness/kinds/scene_ray/scene_ray_questions.h"
 #include "harness/scene/writing/scene_writer.h"
 
 namespace touchstone::kinds {
@@ -314,6 +316,14 @@ class SceneRayKind final : public Kind {
 
   std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
     return std::make_unique<SceneRayBatch>(family.number, range);
+  }
+
+  std::vector<QueryOption> query_options() const override { return scene_ray_options(); }
+  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
+    return read_scene_ray_questions(input);
+  }
+  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
+    return verify_ray_proofs(proofs, file);
   }
 
   std::vector<PlannedSet> timed_sets(files::TomlTable& table,

@@ -22,11 +22,11 @@ TEST(Defects, CastsHaveTheStatedAnswers) {
     ++files;
     const std::string out = (folder.path() / "out.csv").string();
     const std::string proofs = (folder.path() / "proofs.jsonl").string();
-    const Ran ran =
-        run_program(fmt::format("cast {} --cast exact,gjk-ray-cast --out {} --save-certificates {}",
-                                entry.path().string(), out, proofs));
+    const Ran ran = run_program(fmt::format(
+        "query {} --kind cast --cast exact,gjk-ray-cast --out {} --save-certificates {}",
+        entry.path().string(), out, proofs));
     ASSERT_EQ(ran.status, 0) << ran.text;
-    EXPECT_EQ(run_program("cast --certificates " + proofs).status, 0) << entry.path();
+    EXPECT_EQ(run_program("query --certificates " + proofs).status, 0) << entry.path();
     const auto rows = read_rows(out, {"id", "algorithm", "answer", "toi"});
     std::ifstream lines(entry.path());
     std::size_t next = 0;
@@ -60,7 +60,7 @@ TEST(Defects, QueriesHaveTheStatedAnswers) {
     const auto out = folder.path() / "out.csv";
     // It ends with another status if a stated contact is missed.
     const Ran ran = run_program(fmt::format(
-        "ccd {} --kind {} --ccd exact,directional-advancement,additive-advancement --out {}",
+        "query {} --features {} --ccd exact,directional-advancement,additive-advancement --out {}",
         file.string(), kind, out.string()));
     ASSERT_EQ(ran.status, 0) << ran.text;
     const auto rows = read_rows(out, {"algorithm", "answer"});

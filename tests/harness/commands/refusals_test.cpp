@@ -45,7 +45,8 @@ TEST_F(Refusals, QueryOptionsThatNothingHeeds) {
   const std::string concave =
       "query " + path("mesh.jsonl") + " --narrow fused --task distance" + out;
   for (const std::string option : {"--margin", "--duality-gap"}) {
-    refuse(concave + " " + option + " 1", option + " was given; expected it with convex shapes");
+    refuse(concave + " " + option + " 1",
+           option + " was given; expected it with questions of the kind pair, and not mesh");
     for (const std::string task : {"intersect", "penetration"}) {
       refuse("query " + path("boxes.jsonl") + " --narrow gjk --task " + task + out + " " + option +
                  " 1",
@@ -53,8 +54,10 @@ TEST_F(Refusals, QueryOptionsThatNothingHeeds) {
     }
   }
   const std::string convex = "query " + path("boxes.jsonl") + " --narrow gjk --task distance" + out;
-  refuse(convex + " --mid wide-bvh", "--mid was given; expected it with meshes");
-  refuse(convex + " --parts certified", "--parts was given; expected it with meshes");
+  refuse(convex + " --mid wide-bvh",
+         "--mid was given; expected it with questions of the kind mesh, and not pair");
+  refuse(convex + " --parts certified",
+         "--parts was given; expected it with questions of the kind mesh, and not pair");
   refuse(convex + " --tolerance 1e-3 --duality-gap 1e-3", "excludes");
   for (const std::string& heeded :
        {concave + " --mid naive --parts certified --tolerance 1e-3 --max-iterations 90",
@@ -66,7 +69,7 @@ TEST_F(Refusals, QueryOptionsThatNothingHeeds) {
 
 TEST_F(Refusals, QueryTasksOfOtherPhases) {
   const std::string more = " --narrow fused --task signed --out " + path("out.csv");
-  refuse("query " + path("boxes.jsonl") + more, "--narrow fused names concave phases");
+  refuse("query " + path("boxes.jsonl") + more, "--with fused names concave phases");
   refuse("query " + path("mesh.jsonl") + more, "mesh.jsonl:3: case 'm' has a mesh or a compound");
 }
 
@@ -91,9 +94,9 @@ TEST_F(Refusals, OutputsThatWouldBeOneFile) {
   const std::string query = "query " + path("mesh.jsonl") + " --narrow fused --task contacts ";
   expect_two_files(query, "--out ", "--pairs ");
   expect_two_files(query + "--out " + path("out.csv"), "--pairs ", "--contacts ");
-  expect_two_files("cast " + path("boxes.jsonl") + " --cast exact", "--out ",
+  expect_two_files("query " + path("boxes.jsonl") + " --kind cast --cast exact", "--out ",
                    "--save-certificates ");
-  expect_two_files("pairs " + path("pairs.csv") + " --broad sweep-three-axes", "--out ",
+  expect_two_files("query " + path("pairs.csv") + " --broad sweep-three-axes", "--out ",
                    "--moved ");
   std::filesystem::create_symlink(path("one.csv"), path("link.csv"));
   refuse(query + "--out " + path("one.csv") + " --pairs " + path("link.csv"), "name the same file");
@@ -123,14 +126,14 @@ TEST_F(Refusals, OutputsThatWouldReplaceInputs) {
   folder.write("ccd.csv", "0,0,1\n-1,-1,0\n1,-1,0\n0,1,0\n0,0,-1\n-1,-1,0\n1,-1,0\n0,1,0\n");
   expect_kept("query " + path("boxes.jsonl") + " --narrow gjk --task distance", "boxes.jsonl");
   expect_kept("query " + path("mesh.jsonl") + " --narrow fused --task distance", "mesh.jsonl");
-  expect_kept("cast " + path("boxes.jsonl") + " --cast exact", "boxes.jsonl");
-  expect_kept("ccd " + path("ccd.csv") + " --kind vertex-face --ccd exact", "ccd.csv");
-  expect_kept("pairs " + path("pairs.csv") + " --broad sweep-three-axes", "pairs.csv");
+  expect_kept("query " + path("boxes.jsonl") + " --kind cast --cast exact", "boxes.jsonl");
+  expect_kept("query " + path("ccd.csv") + " --features vertex-face --ccd exact", "ccd.csv");
+  expect_kept("query " + path("pairs.csv") + " --broad sweep-three-axes", "pairs.csv");
   const std::string rays =
-      "rays " + path("two.obj") + " --rays " + path("rays.csv") + " --cast exact --task closest";
+      "query " + path("rays.csv") + " --in " + path("two.obj") + " --cast exact --task closest";
   expect_kept(rays, "two.obj");
   expect_kept(rays, "rays.csv");
-  const std::string points = "points " + path("two.obj") + " --points " + path("points.csv");
+  const std::string points = "query " + path("points.csv") + " --in " + path("two.obj");
   expect_kept(points, "two.obj");
   expect_kept(points, "points.csv");
 }
@@ -142,10 +145,10 @@ TEST_F(Refusals, MeshesWithoutFaces) {
                "0.5,0.25,3,0,0,-1,inf\n");
   folder.write("points.csv", "x,y,z\n0,0,1\n");
   const std::string out = " --out " + path("out.csv");
-  refuse("rays " + path("cloud.obj") + " --rays " + path("rays.csv") + " --cast exact --task any" +
-             out,
-         "cloud.obj: the mesh has no faces");
-  refuse("points " + path("cloud.obj") + " --points " + path("points.csv") + out,
+  refuse(
+      "query " + path("rays.csv") + " --in " + path("cloud.obj") + " --cast exact --task any" + out,
+      "cloud.obj: the mesh has no faces");
+  refuse("query " + path("points.csv") + " --in " + path("cloud.obj") + out,
          "cloud.obj: the mesh has no faces");
 }
 
@@ -153,10 +156,10 @@ TEST_F(Refusals, PairsSayWhatTheyRound) {
   const std::string columns = "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n";
   const std::string rest = " --broad sweep-three-axes --out " + path("out.csv");
   const auto exact = folder.write("exact.csv", columns + "0,0,0,0,0.5,1,1,1\n");
-  EXPECT_EQ(run_program("pairs " + exact.string() + rest).text.find("rounded"), std::string::npos);
+  EXPECT_EQ(run_program("query " + exact.string() + rest).text.find("rounded"), std::string::npos);
   const auto other =
       folder.write("other.csv", columns + "0,0,0.1,0,0.5,1,1.3,1\n1,0,0,0,0,1,1,16777217\n");
-  const Ran ran = run_program("pairs " + other.string() + rest);
+  const Ran ran = run_program("query " + other.string() + rest);
   EXPECT_EQ(ran.status, 0);
   EXPECT_NE(ran.text.find("3 coordinates are not floats, and were rounded outwards"),
             std::string::npos);
@@ -176,7 +179,7 @@ TEST_F(Refusals, OutputsOverAScenesFiles) {
   const std::string scene = path("scene.toml");
   for (const std::string& command :
        {"scene represent " + scene + " --forms sphere",
-        "rays " + scene + " --rays " + path("rays.csv") + " --task any --cast exact"}) {
+        "query " + path("rays.csv") + " --in " + scene + " --task any --cast exact"}) {
     for (std::size_t i = 0; i < 3; ++i) {
       refuse(command + " --out " + path(names[i]), "would overwrite");
       EXPECT_EQ(folder.read(names[i]), texts[i]);

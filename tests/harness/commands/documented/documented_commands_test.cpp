@@ -137,9 +137,9 @@ bool has_word(const std::string& text, const std::string& word) {
 
 TEST(DocumentedCommands, AreThoseOfTheProgram) {
   static const std::set<std::string> of_launcher = {"test", "setup", "bench"};
-  static const std::set<std::string> takes_names = {"--narrow", "--broad", "--concave",
-                                                    "--cast",   "--ccd",   "--scene-rays",
-                                                    "--mid",    "--parts", "--algorithm"};
+  static const std::set<std::string> takes_names = {
+      "--with", "--narrow",     "--broad", "--concave", "--cast",
+      "--ccd",  "--scene-rays", "--mid",   "--parts",   "--algorithm"};
   static const std::set<std::string> holds_others = {
 #define TOUCHSTONE_NESTED(command, name, takes, about) #command,
 #include "harness/commands/commands.inl"

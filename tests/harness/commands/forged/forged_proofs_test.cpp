@@ -33,9 +33,9 @@ const std::string hit_at_once = R"("answer":"hit","lower":["0","1"],"upper":["0"
 
 class ForgedProofs : public ::testing::Test {
  protected:
-  Ran verify(const std::string& command, const std::string& text, const std::string& more = "") {
+  Ran verify(const std::string& command, const std::string& text) {
     const auto file = folder.write("proofs.jsonl", text);
-    return run_program(command + " --certificates " + file.string() + more);
+    return run_program(command + " --certificates " + file.string());
   }
   void expect_refused(const Ran& ran, const std::string& why) {
     EXPECT_EQ(ran.status, 1) << ran.text;
@@ -51,19 +51,19 @@ TEST_F(ForgedProofs, SingularHalfSpacesDoNotMeet) {
   const std::string low = halfspace(1, 0, ""), high = halfspace(-1, -5, "");
   const std::string flat_low = halfspace(1, 0, flat),
                     flat_high = halfspace(-1, 0, std::string(flat) + R"(,"translation":[0,0,5])");
-  expect_refused(verify("cast", cast_proof(flat_low, flat_high, hit_at_once)), singular);
-  expect_refused(verify("cast", cast_proof(low, flat_high, hit_at_once)), singular);
-  expect_refused(verify("cast", cast_proof(flat_low, high, hit_at_once)), singular);
-  expect_refused(verify("cast", cast_proof(low, high, hit_at_once)), "the half-spaces are apart");
+  expect_refused(verify("query", cast_proof(flat_low, flat_high, hit_at_once)), singular);
+  expect_refused(verify("query", cast_proof(low, flat_high, hit_at_once)), singular);
+  expect_refused(verify("query", cast_proof(flat_low, high, hit_at_once)), singular);
+  expect_refused(verify("query", cast_proof(low, high, hit_at_once)), "the half-spaces are apart");
 }
 
 // It turns about x by 1.5 radians and sweeps the ball, which its plane passed at the start.
 TEST_F(ForgedProofs, AHalfSpaceDoesNotTurn) {
   const Ran ran =
-      verify("cast", cast_proof(halfspace(1, 0, R"("rotation_vector":[1.5,0,0])"),
-                                R"({"shape":{"type":"sphere","radius":1},"translation":[0,20,3]})",
-                                R"("answer":"miss","lower":["0","1"],"upper":["0","1"],)"
-                                R"("planes":[{"until":["1","1"],"direction":["0","0","1"]}])"));
+      verify("query", cast_proof(halfspace(1, 0, R"("rotation_vector":[1.5,0,0])"),
+                                 R"({"shape":{"type":"sphere","radius":1},"translation":[0,20,3]})",
+                                 R"("answer":"miss","lower":["0","1"],"upper":["0","1"],)"
+                                 R"("planes":[{"until":["1","1"],"direction":["0","0","1"]}])"));
   expect_refused(ran, "a half-space turns");
 }
 
@@ -82,8 +82,8 @@ std::string scene_ray(const std::string& ordered, int body, int t) {
 
 // The bracket reaches from the start to within the second body.
 TEST_F(ForgedProofs, TheSecondBodyOnTheWayIsNotTheFirst) {
-  expect_refused(verify("rays", scene_ray("true", 1, 10)), "the order has not as many parts");
-  const Ran ran = verify("rays", scene_ray("false", 1, 10));
+  expect_refused(verify("query", scene_ray("true", 1, 10)), "the order has not as many parts");
+  const Ran ran = verify("query", scene_ray("false", 1, 10));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("1 of them claim a hit without order"));
 }
@@ -96,25 +96,25 @@ TEST_F(ForgedProofs, TheNumberOfAQuestionIsThatOfTheFile) {
   const std::string rays = folder.write("rays.csv", header + down + up);
   const std::string proofs = folder.path() / "saved.jsonl";
   const Ran saved =
-      run_program("rays " + (folder.path() / "mesh.obj").string() + " --rays " + rays +
+      run_program("query " + rays + " --in " + (folder.path() / "mesh.obj").string() +
                   " --cast exact --task closest --out " + (folder.path() / "out.csv").string() +
                   " --save-certificates " + proofs);
   ASSERT_EQ(saved.status, 0) << saved.text;
   EXPECT_THAT(saved.text, HasSubstr("3 vertices in a box of 1 x 1 x 0, taken as metres"));
   const std::string text = folder.read("saved.jsonl");
-  EXPECT_EQ(verify("rays", text, " --rays " + rays).status, 0);
+  EXPECT_EQ(verify("query " + rays, text).status, 0);
   const std::string exchanged = folder.write("exchanged.csv", header + up + down);
-  const Ran other = verify("rays", text, " --rays " + exchanged);
+  const Ran other = verify("query " + exchanged, text);
   EXPECT_EQ(other.status, 1);
-  EXPECT_THAT(other.text, HasSubstr("ray 1: --rays has another ray of that number, or none"));
+  EXPECT_THAT(other.text, HasSubstr("ray 1: FILE has another ray of that number, or none"));
   EXPECT_THAT(other.text, HasSubstr("0 certificates verified, 2 refused"));
   // A question that is there twice.
   const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
-  const Ran twice = verify("rays", text + last);
+  const Ran twice = verify("query", text + last);
   EXPECT_EQ(twice.status, 1);
   EXPECT_THAT(twice.text, HasSubstr("its number is not above that of the certificate before it"));
   // What was verified before a line that cannot be read is counted.
-  const Ran cut = verify("rays", text + "{}\n");
+  const Ran cut = verify("query", text + "{}\n");
   EXPECT_EQ(cut.status, 2);
   EXPECT_THAT(cut.text,
               HasSubstr("2 certificates verified, 0 refused, before what cannot be read"));
@@ -131,8 +131,8 @@ TEST_F(ForgedProofs, ACaseIsThatOfTheFile) {
                     other = folder.write("other.jsonl", pair(4));
   const std::string proofs = folder.path() / "saved.jsonl",
                     out = (folder.path() / "out.csv").string();
-  for (const std::string asked : {"query", "cast"}) {
-    const std::string how = asked == "query" ? " --narrow exact --task distance" : " --cast exact";
+  for (const std::string how : {" --narrow exact --task distance", " --kind cast --cast exact"}) {
+    const std::string asked = "query";
     const Ran saved =
         run_program(asked + " " + cases + how + " --out " + out + " --save-certificates " + proofs);
     ASSERT_EQ(saved.status, 0) << saved.text;
@@ -141,7 +141,7 @@ TEST_F(ForgedProofs, ACaseIsThatOfTheFile) {
     EXPECT_EQ(run_program(asked + " " + cases + verify_saved).status, 0);
     const Ran refused = run_program(asked + " " + other + verify_saved);
     EXPECT_EQ(refused.status, 1) << refused.text;
-    EXPECT_THAT(refused.text, HasSubstr("CASES has no such case"));
+    EXPECT_THAT(refused.text, HasSubstr("FILE has no such case"));
   }
 }
 
@@ -152,8 +152,8 @@ TEST_F(ForgedProofs, AKeyThatIsNearlyAKnownOneIsTold) {
                    R"({"id":"p","note":1,"a":{"shape":{"type":"sphere","radius":1}},"b":{"shape":)"
                    R"({"type":"sphere","radius":1},"translation":[4,0,0],"displacment":[-4,0,0]}})"
                    "\n");
-  const Ran ran =
-      run_program("cast " + cases + " --cast exact --out " + (folder.path() / "out.csv").string());
+  const Ran ran = run_program("query " + cases + " --kind cast --cast exact --out " +
+                              (folder.path() / "out.csv").string());
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("cases.jsonl:1: warning: the key \"displacment\" is ignored; "
                                   "perhaps \"displacement\" was meant"));

@@ -7,9 +7,9 @@
 
 #include "algorithms/registry.h"
 #include "harness/check/regimes/regimes.h"
-#include "harness/check/regimes/settled_pairs.h"
 #include "harness/grade/manifold/manifold_tally.h"
 #include "harness/grade/manifold/touching_area.h"
+#include "harness/kinds/manifold/settled_pairs.h"
 #include "harness/process/queries/solve_manifold.h"
 #include "tests/algorithms/shapes.h"
 
@@ -33,9 +33,9 @@ TEST(ManifoldGrade, OursOnEveryFamily) {
   for (const Precision scalar : {Precision::float64, Precision::float32}) {
     grade::ManifoldTally tally;
     int with_area = 0;
-    for (const check::SettledFamily& family : check::settled_families()) {
+    for (const kinds::SettledFamily& family : kinds::settled_families()) {
       for (std::uint64_t i = 0; i < 12; ++i) {
-        const files::Case c = check::settled_pair(family, 5, i);
+        const files::Case c = kinds::settled_pair(family, 5, i);
         const grade::ManifoldTruth truth = grade::manifold_truth(c);
         EXPECT_TRUE(truth.overlap()) << c.id;
         const Manifold manifold = process::solve_manifold(ours(), {.scalar = scalar}, c);
@@ -44,7 +44,7 @@ TEST(ManifoldGrade, OursOnEveryFamily) {
       }
     }
     EXPECT_THAT(tally.ours_wrong(), testing::IsEmpty());
-    EXPECT_GT(with_area, static_cast<int>(check::settled_families().size()) * 9);
+    EXPECT_GT(with_area, static_cast<int>(kinds::settled_families().size()) * 9);
   }
 }
 
@@ -143,10 +143,10 @@ TEST(ManifoldGrade, TouchingAreaIsWhereOneFaceIsBelowTheOther) {
 }
 
 TEST(SettledPairs, AreTheSameAgainAndOtherwiseOthers) {
-  for (const check::SettledFamily& family : check::settled_families()) {
-    const files::Case one = check::settled_pair(family, 1, 3);
-    EXPECT_EQ(files::to_json(one), files::to_json(check::settled_pair(family, 1, 3)));
-    EXPECT_NE(files::to_json(one), files::to_json(check::settled_pair(family, 2, 3)));
+  for (const kinds::SettledFamily& family : kinds::settled_families()) {
+    const files::Case one = kinds::settled_pair(family, 1, 3);
+    EXPECT_EQ(files::to_json(one), files::to_json(kinds::settled_pair(family, 1, 3)));
+    EXPECT_NE(files::to_json(one), files::to_json(kinds::settled_pair(family, 2, 3)));
     EXPECT_EQ(one.id, fmt::format("{}/3", family.name));
   }
 }

@@ -1,0 +1,19 @@
+// Pairs of bodies that need not be convex, one JSON object a line.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/kinds/questions.h"
+
+namespace touchstone::kinds {
+
+std::vector<QueryOption> mesh_options();
+// Throws InputError for what is wrong in the files or the options.
+std::unique_ptr<Questions> read_mesh_questions(const QuestionInput& input);
+// Prints what is refused and why; with the file of questions, if any, also what is of none of them.
+bool verify_mesh_proofs(const std::string& proofs, const std::filesystem::path& file);
+
+}  // namespace touchstone::kinds

@@ -1,0 +1,209 @@
+// What is asked of pairs of convex bodies.
+#include "harness/kinds/pair/pair_questions.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+#include "harness/files/cases.h"
+#include "harness/files/csv.h"
+#include "harness/kinds/answers_of.h"
+#include "harness/kinds/asked_only.h"
+#include "harness/kinds/mesh/mesh_proofs.h"
+#include "harness/kinds/mesh/mesh_questions.h"
+#include "harness/kinds/pair/pair_cases.h"
+#include "harness/kinds/pair/pair_rows.h"
+#include "harness/process/queries/solve_case.h"
+
+namespace touchstone::kinds {
+namespace {
+
+constexpr std::array<std::string_view, 4> pair_task_names = {"intersect", "distance", "penetration",
+                                                             "signed"};
+
+struct PairAnswer {
+  Status status = Status::unsupported;  // of the outcome too; the child's end is written here
+  Task task = Task::signed_distance;    // that was asked
+  Outcome outcome;
+};
+
+class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
+ public:
+  explicit PairQuestions(const QuestionInput& input)
+      : input_(input),
+        task_(static_cast<Task>(asked_task(input, pair_task_names, 3))),
+        named_(asked_pair_cases(input)) {
+    settings_ = {.scalar = input.scalar(),
+                 .tolerance = input.number("--tolerance"),
+                 .max_iterations = input.count("--max-iterations"),
+                 .duality_gap = input.number("--duality-gap"),
+                 .margin = input.number("--margin")};
+    for (const std::string_view option : {"--margin", "--duality-gap"}) {
+      if (asks_distance(task_) || !input.has(option)) continue;
+      throw base::InputError(
+          fmt::format("{} was given; expected it with --task distance or signed alone", option));
+    }
+    if (input.has("--save-certificates")) claim();
+    for (const files::ConcaveCase& c : named_) cases_.push_back(convex_case(c));
+    select(input.names, "narrow phase", settings_.scalar);
+    for (const Asked& asked : asked_) {
+      if (!settings_.duality_gap || asked.entry->traits.stops_by_duality_gap) continue;
+      throw base::InputError(fmt::format(
+          "--duality-gap was given for '{}', which does not stop by it; expected only {}",
+          asked.entry->info.name, names_stopping_by_duality_gap()));
+    }
+  }
+
+  std::size_t size() const override { return cases_.size(); }
+  std::string label(std::size_t i) const override { return fmt::format("case '{}'", cases_[i].id); }
+  std::vector<files::NamedFile> inputs() const override { return {{"FILE", input_.file}}; }
+  std::string_view unit() const override { return "m"; }
+  std::vector<std::string> of_other_scalar() const override {
+    std::vector<std::string> names;
+    for (const Asked& asked : asked_) {
+      if (!offers(*asked.entry, settings_.scalar)) names.push_back(asked.entry->info.name);
+    }
+    return names;
+  }
+
+  std::vector<AskFailure> ask(std::size_t contestant) override {
+    const NarrowPhaseEntry& entry = *asked_[contestant].entry;
+    const bool takes = offers(entry, settings_.scalar);
+    return ask_each(
+        contestant, input_.seconds(),
+        [&](std::size_t i) { return takes && !tasks_of(entry, i).empty(); },
+        [&] { return [this, &entry](std::size_t i) { return solve(entry, i); }; });
+  }
+
+  std::vector<std::string> columns() const override { return query_columns(); }
+  void write(files::CsvWriter& csv, std::size_t i, std::size_t contestant) const override {
+    const PairAnswer& given = answer(i, contestant);
+    const Task task = given.status == given.outcome.status ? given.task : task_;
+    write_query_fields(csv,
+                       {cases_[i].id, info(contestant).name, to_string(settings_.scalar),
+                        to_string(given.status == Status::unsupported ? task_ : task)},
+                       outcome_of(given));
+    csv.end_row();
+  }
+
+  ShownAnswer shown(std::size_t i, std::size_t contestant) const override {
+    const PairAnswer& given = answer(i, contestant);
+    ShownAnswer shown = shown_outcome(outcome_of(given));
+    if (given.task == Task::intersect && shown.verdict == "overlapping") shown.more = "(no depth)";
+    if (given.task == Task::distance && shown.verdict == "overlapping") shown.more = "(no depth)";
+    if (given.task == Task::intersect && shown.verdict == "separated") shown.more = "(no distance)";
+    if (given.task == Task::penetration && shown.verdict == "separated") {
+      shown.more = "(no distance)";
+    }
+    return shown;
+  }
+  std::vector<std::string_view> verdicts() const override {
+    return {"separated", "touching", "overlapping", "unknown"};
+  }
+
+  Proving proving() const override { return parts_proving(claim(), named_); }
+
+ private:
+  static Outcome outcome_of(const PairAnswer& given) {
+    Outcome outcome = given.outcome;
+    outcome.status = given.status;
+    return outcome;
+  }
+
+  // What is proven of a case: there are no proofs of depths.
+  ConcaveTask claim() const {
+    if (input_.task == "intersect") return ConcaveTask::intersect;
+    if (input_.task.empty() || input_.task == "distance") return ConcaveTask::distance;
+    throw base::InputError(fmt::format(
+        "--save-certificates was given with --task {}; expected intersect, distance or contacts",
+        input_.task));
+  }
+
+  // The task; if none was asked and the algorithm lacks signed distances, those which it has that make one up.
+  std::vector<Task> tasks_of(const NarrowPhaseEntry& entry, std::size_t i) const {
+    const auto has = [&](Task task) {
+      return offers(entry, cases_[i].shape_a.kind, cases_[i].shape_b.kind, task);
+    };
+    if (has(task_)) return {task_};
+    std::vector<Task> tasks;
+    if (!input_.task.empty()) return tasks;
+    for (const Task task : {Task::penetration, Task::distance}) {
+      if (has(task)) tasks.push_back(task);
+    }
+    if (tasks.empty() && has(Task::intersect)) tasks.push_back(Task::intersect);
+    return tasks;
+  }
+
+  PairAnswer solve(const NarrowPhaseEntry& entry, std::size_t i) const {
+    PairAnswer answer;
+    for (const Task task : tasks_of(entry, i)) {
+      answer.task = task;
+      answer.outcome = process::solve_case(entry, settings_, cases_[i], task);
+      answer.status = answer.outcome.status;
+      if (answer.outcome.answer != Answer::separated) break;  // a distance adds nothing
+    }
+    return answer;
+  }
+
+  QuestionInput input_;
+  Task task_;
+  std::vector<files::ConcaveCase> named_;  // as they were read
+  std::vector<files::Case> cases_;
+  NarrowPhaseSettings settings_;
+};
+
+class PairKind final : public AskedOnly {
+ public:
+  PairKind()
+      : AskedOnly({.name = "pair",
+                   .old_name = "narrow",
+                   .title = "Pairs of convex bodies",
+                   .contract = "narrow phase",
+                   .legend = "",
+                   .tasks = pair_task_names,
+                   .draw_number = 0}) {}
+
+  std::vector<const AlgorithmInfo*> algorithms() const override {
+    return infos_of(registry::entries<NarrowPhaseEntry>());
+  }
+  std::vector<QueryOption> query_options() const override { return pair_options(); }
+  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
+    return read_pair_questions(input);
+  }
+  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
+    return verify_mesh_proofs(proofs, file);
+  }
+};
+
+}  // namespace
+
+std::vector<QueryOption> pair_options() {
+  using Value = QueryOption::Value;
+  return {
+      option::id,
+      option::scalar,
+      option::tolerance,
+      {.name = "--duality-gap",
+       .value = Value::positive,
+       .help = "Stop a distance by the absolute duality gap of its square instead (square metres)",
+       .excludes = "--tolerance"},
+      {"--margin", Value::not_negative, "Bodies further apart than this get no distance (metres)"},
+      option::max_iterations,
+      option::saved};
+}
+
+std::unique_ptr<Questions> read_pair_questions(const QuestionInput& input) {
+  return std::make_unique<PairQuestions>(input);
+}
+
+const Kind& pair_kind() {
+  static const PairKind kind;
+  return kind;
+}
+
+}  // namespace touchstone::kinds

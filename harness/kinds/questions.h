@@ -1,0 +1,146 @@
+// A user's questions of one kind: read from a file, asked, and answered in rows, lines and proofs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/algorithm_info.h"
+#include "algorithms/core/outcome.h"
+#include "harness/files/csv.h"
+#include "harness/files/output_file.h"
+#include "harness/process/isolated_lines.h"
+
+namespace touchstone::kinds {
+
+// An option of `query` that some kinds have.
+struct QueryOption {
+  enum class Value : std::uint8_t {
+    flag,
+    text,
+    choice,
+    positive,      // a number
+    not_negative,  // a number
+    count,         // an integer above 0
+    natural,       // an integer from 0
+  };
+
+  std::string_view name;  // such as "--start"
+  Value value = Value::text;
+  std::string_view help;
+  std::vector<std::string_view> choices = {};  // of a choice
+  // An option that may not stand beside it; none if empty.
+  std::string_view excludes = {};
+};
+
+// What the command line asks.
+struct QuestionInput {
+  std::filesystem::path file;             // of the questions; empty where the kind makes them
+  std::vector<std::string> names;         // of algorithms and groups
+  std::string task;                       // empty: the kind's fullest
+  std::optional<double> time_limit = {};  // seconds
+  // Of the kind's options those that were given; the text of a flag is empty.
+  std::map<std::string, std::string, std::less<>> options = {};
+
+  bool has(std::string_view option) const { return options.contains(option); }
+  std::string text(std::string_view option, std::string without = {}) const;
+  std::optional<double> number(std::string_view option) const;
+  std::optional<int> count(std::string_view option) const;
+  Precision scalar() const;  // of --scalar; double without it
+  double seconds(double without = 5) const { return time_limit.value_or(without); }
+};
+
+// The place of the task that was asked among the kind's tasks; `fullest` if none was. Throws InputError for a task that
+// is none of them.
+std::size_t asked_task(const QuestionInput& input, std::span<const std::string_view> tasks,
+                       std::size_t fullest = 0);
+
+// The file of --in. Throws InputError if there is none.
+std::string needed_target(const QuestionInput& input);
+
+// Why some question has no answer of an algorithm.
+struct AskFailure {
+  std::string label;   // of the question
+  std::string reason;  // such as "no answer in time"
+};
+
+// What one algorithm says to one question, as a line shows it.
+struct ShownAnswer {
+  std::string_view verdict;
+  Status status = Status::unsupported;
+  double number = Outcome::none;  // the distance, time or length that was asked for
+  double lower = Outcome::none, upper = Outcome::none;  // certified bounds on it
+  std::string more = {};                                // what else is worth reading
+};
+
+// The proofs of exact answers, each a line.
+struct Proving {
+  std::vector<std::string> head = {};  // lines that the proofs refer to
+  std::size_t items = 0;
+  std::function<process::MakeLine()> setup;
+  std::function<std::string(std::size_t item)> label;
+};
+
+// The questions, and the answers of the algorithms that were asked, which are numbered as they were selected. A file
+// or folder may be read part by part; then these are those of the part.
+class Questions {
+ public:
+  virtual ~Questions() = default;
+
+  // --- what is asked ---
+  virtual std::size_t size() const = 0;  // in the order of the file
+  virtual std::string label(std::size_t question) const = 0;
+  virtual std::vector<files::NamedFile> inputs() const = 0;
+  virtual std::vector<files::NamedFile> outputs() const { return {}; }  // beside the answers
+  // Goes on to the next part; false if there is none.
+  virtual bool next() { return false; }
+  virtual std::string_view unit() const = 0;  // of numbers in lines, such as "m"
+
+  // --- who is asked ---
+  virtual std::size_t contestants() const = 0;
+  virtual const AlgorithmInfo& info(std::size_t contestant) const = 0;
+  // The algorithm's name, and its scalar where it is asked in several.
+  virtual std::string name(std::size_t contestant) const { return info(contestant).name; }
+  // Those that have no answer because they calculate in the other of float and double alone.
+  virtual std::vector<std::string> of_other_scalar() const { return {}; }
+
+  // Asks all questions, in a child process, and keeps the answers.
+  virtual std::vector<AskFailure> ask(std::size_t contestant) = 0;
+
+  // --- what is answered ---
+  virtual std::vector<std::string> columns() const = 0;
+  // Writes the rows of an answer, most often one.
+  virtual void write(files::CsvWriter& csv, std::size_t question, std::size_t contestant) const = 0;
+  // Writes the files of outputs().
+  virtual void write_further() {}
+  virtual ShownAnswer shown(std::size_t question, std::size_t contestant) const = 0;
+  // The verdicts in the order in which a summary counts them.
+  virtual std::vector<std::string_view> verdicts() const = 0;
+  // Prints a summary of its own. Returns false if it has none, so that answers and statuses are counted.
+  // `are_shown`: every answer was printed in a line.
+  virtual bool print_summary(bool /*are_shown*/) const { return false; }
+  // True if an answer of ours is known to be wrong. Prints which, where that is no part of the summary.
+  virtual bool is_wrong() const { return false; }
+
+  // Throws InputError if there are no proofs of what is asked.
+  virtual Proving proving() const;
+};
+
+// What is read from a mesh file, in the file's units, which are taken for metres: prints its size, to standard error,
+// so that a body of ten metres that was meant to be one of ten millimetres is seen.
+void tell_extent(const std::string& file, std::span<const Vec3d> vertices);
+
+// Options that several kinds have.
+namespace option {
+extern const QueryOption id, scalar, tolerance, max_iterations, target, saved;
+}
+
+}  // namespace touchstone::kinds
