@@ -60,7 +60,7 @@ TEST_F(CheckCommand, GradesOursAndFindsThemWithinTheirMargins) {
   EXPECT_EQ(column("summary.csv", "algorithm"), names);
   EXPECT_THAT(column("machine.csv", "name"), testing::IsSupersetOf({"seed", "commit", "compiler"}));
   EXPECT_THAT(folder.read("page.md"), HasSubstr("# Who is wrong where"));
-  EXPECT_THAT(folder.read("page.md"), HasSubstr("`touchstone check --narrow ours"));
+  EXPECT_THAT(folder.read("page.md"), HasSubstr("`touchstone check --cases 3 "));
   for (const std::string& name : names) EXPECT_THAT(ran.text, HasSubstr(name));
 }
 

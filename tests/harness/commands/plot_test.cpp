@@ -87,8 +87,8 @@ TEST(Plots, CellsWithACrossBesideWhoIsWrong) {
   const std::string rows =
       "hit,box,first,ours,0,0,0,ok,1e-7\nhit,box,second,peer,3,0,0,ok,2e-7\n"
       "miss,box,first,ours,0,0,0,ok,2e-7\nmiss,box,second,peer,,,,unsupported,\n";
-  folder.write("grades.csv", header + rows);
-  folder.write("times.csv", header + rows);
+  folder.write("set_grades.csv", header + rows);
+  folder.write("set_times.csv", header + rows);
   const std::string cells = folder.path().string();
   Ran ran = plot(cells);
   ASSERT_EQ(ran.status, 0) << ran.text;
@@ -97,7 +97,7 @@ TEST(Plots, CellsWithACrossBesideWhoIsWrong) {
   EXPECT_GT(folder.read("figures/cells.png").size(), 1000u);
   ran = plot(cells);
   EXPECT_TRUE(figure == folder.read("figures/cells.svg"));
-  folder.write("times.csv", header + "hit,box,first,ours,0,0,0,unsupported,\n");
+  folder.write("set_times.csv", header + "hit,box,first,ours,0,0,0,unsupported,\n");
   ran = plot(cells);
   EXPECT_EQ(ran.status, 2) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("nothing was drawn"));
