@@ -18,17 +18,26 @@ namespace {
 using kinds::Questions;
 using kinds::ShownAnswer;
 
-// "-0.2185 +- 1e-14 m (proven)": a number with its bounds.
+// "-0.2185 +- 1e-14 m (proven)": a number with its bounds; "-0.43 m (at least -0.43)" where it has one of them.
 std::string number_text(const ShownAnswer& shown, std::string_view unit, bool is_oracle) {
   if (std::isnan(shown.number)) {
     const bool has_bounds = std::isfinite(shown.lower) && std::isfinite(shown.upper);
     return has_bounds ? fmt::format("from {} to {} {}", shown.lower, shown.upper, unit) : "";
   }
   std::string text = fmt::format("{}", shown.number);
-  const double half = std::max(shown.number - shown.lower, shown.upper - shown.number);
-  if (std::isfinite(half)) text += fmt::format(" +- {:.2g}", half);
+  const bool has_both = std::isfinite(shown.lower) && std::isfinite(shown.upper);
+  if (has_both) {
+    text +=
+        fmt::format(" +- {:.2g}", std::max(shown.number - shown.lower, shown.upper - shown.number));
+  }
   if (!unit.empty()) text += fmt::format(" {}", unit);
-  if (std::isfinite(half)) text += is_oracle ? " (proven)" : " (certified)";
+  if (has_both) {
+    text += is_oracle ? " (proven)" : " (certified)";
+  } else if (std::isfinite(shown.lower)) {
+    text += fmt::format(" (at least {:.6g})", shown.lower);
+  } else if (std::isfinite(shown.upper)) {
+    text += fmt::format(" (at most {:.6g})", shown.upper);
+  }
   return text;
 }
 
