@@ -71,9 +71,9 @@ struct Face {
   double doubt;     // the rounding error of the distance; infinite if there is no area
 };
 
-class Polytope {
+class ExpandingPolytope {
  public:
-  Polytope(Points tetrahedron, double rounding)
+  ExpandingPolytope(Points tetrahedron, double rounding)
       : points_(std::move(tetrahedron)), rounding_(rounding) {
     const Vec3d& p = points_[0].w;
     if ((points_[1].w - p).cross(points_[2].w - p).dot(points_[3].w - p) > 0)
@@ -174,7 +174,7 @@ class EpaTextbook final : public NarrowPhase {
       outcome.answer = Answer::separated;
       outcome.status = Status::ok;
     } else if (complete(c, simplex)) {
-      expand(c, Polytope(simplex, c.rounding()), outcome);
+      expand(c, ExpandingPolytope(simplex, c.rounding()), outcome);
     }
   }
 
@@ -221,7 +221,7 @@ class EpaTextbook final : public NarrowPhase {
     return true;
   }
 
-  void expand(Difference& c, Polytope polytope, Outcome& outcome) const {
+  void expand(Difference& c, ExpandingPolytope polytope, Outcome& outcome) const {
     double least_height = std::numeric_limits<double>::infinity(), inside = 0;
     for (int k = 0; k <= max_iterations_; ++k, ++outcome.iterations) {
       const double slack = (inside > 0 ? tolerance_ : 0) + 2 * c.rounding();

@@ -32,7 +32,7 @@ namespace {
 using textbook::SupportPoint;
 
 // Support points with the weights of the simplex' nearest point to the origin.
-struct Simplex {
+struct WeightedSimplex {
   std::array<SupportPoint, 4> points;
   std::array<double, 4> weights{1, 0, 0, 0};
   int size = 0;
@@ -51,8 +51,8 @@ struct Simplex {
     return sum;
   }
   // The face without point j.
-  Simplex without(int j) const {
-    Simplex face;
+  WeightedSimplex without(int j) const {
+    WeightedSimplex face;
     for (int i = 0; i < size; ++i) {
       if (i != j) face.points[face.size++] = points[i];
     }
@@ -60,17 +60,17 @@ struct Simplex {
   }
 };
 
-Simplex nearest_face(const Simplex& simplex);
+WeightedSimplex nearest_face(const WeightedSimplex& simplex);
 
 // Takes the nearest of the faces opposite to the points whose part of the whole does not have the sign of the whole. Returns
 // the simplex itself, with the shares as weights, if all have this sign.
-Simplex by_signs(Simplex simplex, const std::array<double, 4>& parts, double whole,
-                 const Vec3d& projection) {
-  Simplex best;
+WeightedSimplex by_signs(WeightedSimplex simplex, const std::array<double, 4>& parts, double whole,
+                         const Vec3d& projection) {
+  WeightedSimplex best;
   double least = std::numeric_limits<double>::infinity();
   for (int j = 0; j < simplex.size; ++j) {
     if (parts[j] * whole > 0) continue;
-    const Simplex face = nearest_face(simplex.without(j));
+    const WeightedSimplex face = nearest_face(simplex.without(j));
     const double square = face.nearest(&SupportPoint::w).squaredNorm();
     if (best.size > 0 && !(square < least)) continue;
     least = square;
@@ -82,7 +82,7 @@ Simplex by_signs(Simplex simplex, const std::array<double, 4>& parts, double who
   return simplex;
 }
 
-Simplex s1d(const Simplex& simplex) {
+WeightedSimplex s1d(const WeightedSimplex& simplex) {
   const Vec3d &s1 = simplex.points[0].w, &s2 = simplex.points[1].w;
   const Vec3d edge = s2 - s1;
   const Vec3d p = s1 - (s1.dot(edge) / edge.squaredNorm()) * edge;
@@ -91,7 +91,7 @@ Simplex s1d(const Simplex& simplex) {
   return by_signs(simplex, {s2[axis] - p[axis], p[axis] - s1[axis]}, edge[axis], p);
 }
 
-Simplex s2d(const Simplex& simplex) {
+WeightedSimplex s2d(const WeightedSimplex& simplex) {
   const Vec3d &s1 = simplex.points[0].w, &s2 = simplex.points[1].w, &s3 = simplex.points[2].w;
   const Vec3d normal = (s2 - s1).cross(s3 - s1);
   const Vec3d p = (s1.dot(normal) / normal.squaredNorm()) * normal;
@@ -103,7 +103,7 @@ Simplex s2d(const Simplex& simplex) {
   return by_signs(simplex, {area(p, s2, s3), area(s1, p, s3), area(s1, s2, p)}, normal[axis], p);
 }
 
-Simplex s3d(const Simplex& simplex) {
+WeightedSimplex s3d(const WeightedSimplex& simplex) {
   const auto volume = [&](int q, int r, int s) {
     return simplex.points[q].w.dot(simplex.points[r].w.cross(simplex.points[s].w));
   };
@@ -113,11 +113,11 @@ Simplex s3d(const Simplex& simplex) {
 }
 
 // Returns the smallest face that has the nearest point to the origin, with its weights.
-Simplex nearest_face(const Simplex& simplex) {
+WeightedSimplex nearest_face(const WeightedSimplex& simplex) {
   if (simplex.size == 4) return s3d(simplex);
   if (simplex.size == 3) return s2d(simplex);
   if (simplex.size == 2) return s1d(simplex);
-  Simplex point = simplex;
+  WeightedSimplex point = simplex;
   point.weights = {1, 0, 0, 0};
   point.projection = point.points[0].w;
   return point;
@@ -140,7 +140,7 @@ class GjkSignedVolumes final : public NarrowPhase {
  private:
   // A simplex with the bounds that it ended with, in the unit of C.
   struct Search {
-    Simplex simplex;
+    WeightedSimplex simplex;
     textbook::Bounds distance{0, 0};
     bool is_enclosed = false;  // the origin is inside the simplex
   };
@@ -148,7 +148,7 @@ class GjkSignedVolumes final : public NarrowPhase {
   Search search(textbook::Difference& c, bool wants_distance, int& iterations) const {
     const Vec3d toward = -c.origins();
     Search found;
-    Simplex& simplex = found.simplex;
+    WeightedSimplex& simplex = found.simplex;
     simplex.points[simplex.size++] = c.support(toward.isZero(0) ? Vec3d(1, 1, 1) : toward);
     simplex = nearest_face(simplex);
     for (int k = 0;; ++k, ++iterations) {
@@ -167,7 +167,7 @@ class GjkSignedVolumes final : public NarrowPhase {
       const bool is_apart = found.distance.lower > 0;
       if (is_apart && (!wants_distance || has_met(found.distance, c))) return found;
       if (simplex.has(w)) return found;
-      Simplex next = simplex;
+      WeightedSimplex next = simplex;
       next.points[next.size++] = w;
       next = nearest_face(next);
       // Rounding ends the descent.
@@ -176,7 +176,7 @@ class GjkSignedVolumes final : public NarrowPhase {
     }
   }
 
-  static Vec3d direction_of(const Simplex& simplex) {
+  static Vec3d direction_of(const WeightedSimplex& simplex) {
     const double length = simplex.projection.norm();
     return length > 0 ? Vec3d(simplex.projection / length)
                       : simplex.nearest(&SupportPoint::w).normalized();
