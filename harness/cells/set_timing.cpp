@@ -20,8 +20,8 @@ namespace {
 
 constexpr double confidence = 0.95;
 constexpr double twin_width = 0.02;  // a baseline that differs from its twin by more is flagged
-constexpr int processes = 3;    // that a contestant lives through
-constexpr double slack = 10;    // times its time when it was graded, until a sample is stopped
+constexpr int processes = 3;         // that a contestant lives through
+constexpr double slack = 10;         // times its time when it was graded, until a sample is stopped
 constexpr double greatest_repeats = 1e6;
 // A worker answers untimed for this part of a sample before its first one.
 constexpr std::int64_t warm_up_part = 10;

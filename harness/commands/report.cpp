@@ -180,8 +180,7 @@ void make_report(const ReportOptions& options) {
 
 void add_report(Arguments command) {
   const auto options = std::make_shared<ReportOptions>();
-  command.texts("RESULTS", options->results,
-                "Folders that run, check or advise wrote");
+  command.texts("RESULTS", options->results, "Folders that run, check or advise wrote");
   command.text("--out", options->out, "The page, .html").required();
   command
       .texts("--scene", options->scenes,

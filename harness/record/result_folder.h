@@ -128,7 +128,7 @@ class ResultFolder {
   void write_facts(bool finished, const Facts& more) const;
 
   ResultFolderPlan plan_;
-  int lock_ = -1;  // descriptor of the folder
+  int lock_ = -1;                                    // descriptor of the folder
   bool was_finished_ = false, is_finished_ = false;  // at the start, and by machine.csv now
   std::string begun_;  // when the work was begun, not when it was resumed
   std::int64_t units_ = 0;

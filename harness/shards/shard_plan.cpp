@@ -216,8 +216,9 @@ ShardPlan make_plan(const std::filesystem::path& file, const ShardSetting& setti
 ShardPlan read_plan(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::exists(folder / plan_file, error)) {
-    throw base::InputError(folder.string(), 0,
-                           "holds no whole plan; expected a folder that `touchstone shards plan` made");
+    throw base::InputError(
+        folder.string(), 0,
+        "holds no whole plan; expected a folder that `touchstone shards plan` made");
   }
   ShardPlan plan;
   plan.folder = folder;
@@ -227,10 +228,11 @@ ShardPlan read_plan(const std::filesystem::path& folder) {
   plan.shards = record::read_rows<PlannedShard>(folder / shards_file);
   const std::string id = id_of(plan, files::read_text(plan.campaign()));
   if (plan.shards.empty() || id != plan.id) {
-    throw base::InputError((folder / plan_file).string(), 0,
-                           fmt::format("is of another plan than the files beside it ({}, and they "
-                                       "make {}); expected those that `touchstone shards plan` wrote",
-                                       plan.id, id));
+    throw base::InputError(
+        (folder / plan_file).string(), 0,
+        fmt::format("is of another plan than the files beside it ({}, and they "
+                    "make {}); expected those that `touchstone shards plan` wrote",
+                    plan.id, id));
   }
   return plan;
 }

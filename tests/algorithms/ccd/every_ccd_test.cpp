@@ -214,9 +214,9 @@ TEST(EveryCcd, EdgesThatPassWhereTheirDistanceHasADoubleRoot) {
                         Vec3d(0.875, -1, 0.175537109375), Vec3d(0.875, 1, 0.175537109375)}};
   for (const double tolerance : {1e-6, 1e-4}) {
     const CcdSettings settings = {.tolerance = tolerance};
-    const auto outcome =
-        solved(*registry::find<CcdEntry>("directional-advancement"), settings, FeaturePair::edge_edge, {query})
-            .front();
+    const auto outcome = solved(*registry::find<CcdEntry>("directional-advancement"), settings,
+                                FeaturePair::edge_edge, {query})
+                             .front();
     EXPECT_EQ(outcome.status, Status::ok) << tolerance;
     EXPECT_NE(outcome.answer, CcdAnswer::unknown) << tolerance;
     Counts counts;
