@@ -17,8 +17,8 @@
 #include "harness/kinds/kind.h"
 #include "harness/scene/scene.h"
 #include "tests/algorithms/one_in.h"
-#include "tests/harness/kinds/planted_kinds.h"
 #include "tests/harness/input_fault.h"
+#include "tests/harness/kinds/planted_kinds.h"
 #include "tests/harness/stopped_folder.h"
 #include "tests/harness/temporary_folder.h"
 

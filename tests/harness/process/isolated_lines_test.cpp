@@ -53,8 +53,7 @@ TEST(IsolatedLines, ASetupThatFailsMakesNone) {
 TEST(IsolatedLines, NoItemsMakeNone) {
   std::ostringstream out;
   const auto report = isolated_lines(
-      0, {}, []() -> MakeLine { return line_of; },
-      [&](const std::string& line) { out << line; });
+      0, {}, []() -> MakeLine { return line_of; }, [&](const std::string& line) { out << line; });
   EXPECT_EQ(report.lines, 0);
   EXPECT_TRUE(report.failures.empty());
 }

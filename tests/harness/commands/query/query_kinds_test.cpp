@@ -152,13 +152,13 @@ TEST_F(QueryKinds, WrongRequests) {
 }
 
 TEST_F(QueryKinds, OldCommandsNameTheNewLine) {
-  for (const auto& [old, line] : std::vector<std::pair<std::string, std::string>>{
-           {"rays", "query RAYS.csv --in MESH"},
-           {"points", "query POINTS.csv --in MESH"},
-           {"cast", "query --kind cast file"},
-           {"ccd", "query --kind=feature file"},
-           {"manifold", "query --kind manifold file"},
-           {"pairs", "query file"}}) {
+  for (const auto& [old, line] :
+       std::vector<std::pair<std::string, std::string>>{{"rays", "query RAYS.csv --in MESH"},
+                                                        {"points", "query POINTS.csv --in MESH"},
+                                                        {"cast", "query --kind cast file"},
+                                                        {"ccd", "query --kind=feature file"},
+                                                        {"manifold", "query --kind manifold file"},
+                                                        {"pairs", "query file"}}) {
     expect_refusal(old + " file", "`" + old + "` is now `touchstone " + line, folder);
   }
 }
