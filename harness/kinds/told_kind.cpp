@@ -15,6 +15,7 @@
 #include "harness/files/line_reader.h"
 #include "harness/kinds/pair/pair_cases.h"
 #include "harness/kinds/selection.h"
+#include "harness/scene/mesh_frames.h"
 
 namespace touchstone::kinds {
 namespace {
@@ -102,7 +103,7 @@ const Kind& told_kind(const QuestionInput& input, const std::string& word) {
   }
   if (input.has("--settled")) return manifold_kind();
   const std::string file = input.file.string();
-  if (file.ends_with(".aabbs")) return box_kind();
+  if (file.ends_with(".aabbs") || scene::are_mesh_frames(input.file)) return box_kind();
   if (std::filesystem::is_directory(input.file)) return feature_kind();
   const std::string first = first_line(input.file);
   const bool is_json =

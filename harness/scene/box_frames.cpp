@@ -14,6 +14,7 @@
 #include "harness/base/file_text.h"
 #include "harness/files/csv.h"
 #include "harness/scene/aabbs.h"
+#include "harness/scene/mesh_frames.h"
 
 namespace touchstone::scene {
 namespace {
@@ -120,8 +121,9 @@ void compare(const BoxFrame& before, BoxFrame& now) {
 }  // namespace
 
 std::vector<BoxFrame> read_box_frames(const std::filesystem::path& file) {
-  std::vector<BoxFrame> frames = file.extension() == ".aabbs" ? read_recording(file)  //
-                                                              : read_csv(file);
+  std::vector<BoxFrame> frames = are_mesh_frames(file)          ? read_mesh_frames(file)
+                                 : file.extension() == ".aabbs" ? read_recording(file)
+                                                                : read_csv(file);
   for (BoxFrame& frame : frames) frame.count = frame.boxes.size();
   for (std::size_t i = 1; i < frames.size(); ++i) compare(frames[i - 1], frames[i]);
   return frames;

@@ -21,6 +21,8 @@ struct BoxFrame {
   std::size_t rounded = 0;  // coordinates in the file that no float holds
   // Changes since the previous frame; empty in the first.
   std::vector<std::uint32_t> moved, inserted, removed;
+  std::vector<IndexPair>
+      known_pairs;  // pairs that the file's authors know to meet, ascending; often none
 
   FrameChange change() const { return {boxes, moved, inserted, removed}; }
   // The boxes for a build without an earlier frame.
@@ -28,7 +30,7 @@ struct BoxFrame {
 };
 
 // Reads a CSV file with the columns frame, id, min_x, min_y, min_z, max_x, max_y, max_z (metres),
-// or a Broadmark recording if the extension is .aabbs. In CSV the frames' numbers rise, and each
+// or a Broadmark recording if the extension is .aabbs, or frames of a mesh (mesh_frames.h). In CSV the frames' numbers rise, and each
 // frame's ids are 0, 1, 2, ... in order; frames may differ in their number. Six empty fields mean
 // that the id has no body. Numbers are rounded outward to float. Throws InputError with file and
 // line if there is no box, and for NaN, infinity, a number beyond the range of float, min > max,

@@ -32,6 +32,25 @@ void list_fresh(const scene::BoxFrame& frame, bool is_update, std::vector<std::u
   }
 }
 
+// Counts the known pairs that were not found.
+void count_missing(const scene::BoxFrame& frame, const PairSink& found, FrameResult& result) {
+  const std::vector<IndexPair>& known = frame.known_pairs;
+  std::vector<char> is_found(known.size(), 0);
+  for (const PairBuffer& chunk : found.chunks()) {
+    if (known.empty()) break;
+    for (const IndexPair& pair : chunk.pairs()) {
+      const auto at = std::ranges::lower_bound(known, pair);
+      if (at != known.end() && *at == pair)
+        is_found[static_cast<std::size_t>(at - known.begin())] = 1;
+    }
+  }
+  result.missing = static_cast<std::size_t>(std::ranges::count(is_found, 0));
+  if (result.missing > 0) {
+    result.first_missing =
+        known[static_cast<std::size_t>(std::ranges::find(is_found, 0) - is_found.begin())];
+  }
+}
+
 }  // namespace
 
 // The state of the child process, which has threads of its own.
@@ -111,6 +130,7 @@ void BoxContender::find_pairs(Worker& worker, const scene::BoxFrame& frame, Fram
                       : worker.broad_phase->find_pairs_of(worker.awake, worker.sink);
   result.seconds = stopwatch.seconds();
   worker.built = true;
+  count_missing(frame, worker.sink, result);
   result.pairs = worker.sink.size();
   for (const PairBuffer& chunk : worker.sink.chunks())
     result.hash += base::pair_hash(chunk.pairs());

@@ -33,6 +33,8 @@ struct FrameResult {
   std::uint64_t hash = 0;
   double seconds = 0;
   std::size_t began = 0, ended = 0, moved = 0;
+  std::size_t missing = 0;  // of the frame's known pairs, and the first of these
+  IndexPair first_missing = {};
   // The place in the temporary file of the pairs, of those that began, of those that ended and of
   // those of the bodies that moved or came.
   off_t kept_at = 0;

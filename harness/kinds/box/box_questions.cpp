@@ -63,7 +63,14 @@ class BoxQuestions final : public Questions {
     frames_ = scene::read_box_frames(input.file);
     if (!options_.resting.empty()) is_resting_ = read_resting(options_.resting, frames_);
     std::size_t rounded = 0;
-    for (const scene::BoxFrame& frame : frames_) rounded += frame.rounded;
+    for (const scene::BoxFrame& frame : frames_) {
+      rounded += frame.rounded;
+      known_ += frame.known_pairs.size();
+    }
+    if (known_ > 0 && !options_.resting.empty()) {
+      throw base::InputError(
+          "--resting: leaves out pairs that the frames' lists of known pairs ask for");
+    }
     if (rounded > 0) {
       fmt::print(stderr, "{} coordinates are not floats, and were rounded outwards\n", rounded);
     }
@@ -129,24 +136,14 @@ class BoxQuestions final : public Questions {
   std::vector<std::string_view> verdicts() const override { return {}; }
 
   bool print_summary(bool are_shown) const override {
-    if (are_shown) return true;
-    fmt::print("{:<28} {:>7} {:>12} {:>12}  {}\n", "algorithm", "frames", "pairs", "seconds",
-               "frames that differ from the first's");
-    for (const auto& contender : contenders_) {
-      std::size_t done = 0, pairs = 0, differing = 0;
-      double seconds = 0;
-      for (std::size_t i = 0; i < frames_.size(); ++i) {
-        const FrameResult& result = contender->result(i);
-        const FrameResult& first = contenders_.front()->result(i);
-        done += result.known ? 1 : 0;
-        pairs += result.pairs;
-        seconds += result.seconds;
-        differing += result.known && first.known && result.hash != first.hash ? 1 : 0;
-      }
-      fmt::print("{:<28} {:>7} {:>12} {:>12.6f}  {}\n", contender->info().name, done, pairs,
-                 seconds, differing);
-    }
+    if (!are_shown) print_counts();
+    if (known_ > 0) print_known();
     return true;
+  }
+  bool is_wrong() const override {
+    return std::ranges::any_of(contenders_, [&](const auto& contender) {
+      return contender->info().origin != Origin::peer && missing(*contender).pairs > 0;
+    });
   }
 
  private:
@@ -181,9 +178,60 @@ class BoxQuestions final : public Questions {
     csv.close();
   }
 
+  void print_counts() const {
+    fmt::print("{:<28} {:>7} {:>12} {:>12}  {}\n", "algorithm", "frames", "pairs", "seconds",
+               "frames that differ from the first's");
+    for (const auto& contender : contenders_) {
+      std::size_t done = 0, pairs = 0, differing = 0;
+      double seconds = 0;
+      for (std::size_t i = 0; i < frames_.size(); ++i) {
+        const FrameResult& result = contender->result(i);
+        const FrameResult& first = contenders_.front()->result(i);
+        done += result.known ? 1 : 0;
+        pairs += result.pairs;
+        seconds += result.seconds;
+        differing += result.known && first.known && result.hash != first.hash ? 1 : 0;
+      }
+      fmt::print("{:<28} {:>7} {:>12} {:>12.6f}  {}\n", contender->info().name, done, pairs,
+                 seconds, differing);
+    }
+  }
+
+  struct Missing {
+    std::size_t pairs = 0;
+    std::string first;  // frame and pair
+  };
+  Missing missing(const BoxContender& contender) const {
+    Missing all;
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      const FrameResult& result = contender.result(i);
+      if (!result.known || result.missing == 0) continue;
+      if (all.pairs == 0) {
+        all.first = fmt::format("{} and {} of frame {}", result.first_missing.a,
+                                result.first_missing.b, frames_[i].number);
+      }
+      all.pairs += result.missing;
+    }
+    return all;
+  }
+  void print_known() const {
+    bool are_all_found = true;
+    for (const auto& contender : contenders_) {
+      const Missing not_found = missing(*contender);
+      if (not_found.pairs == 0) continue;
+      are_all_found = false;
+      fmt::print("{}: misses {} of {} known pairs, first {}\n", contender->info().name,
+                 not_found.pairs, known_, not_found.first);
+    }
+    if (are_all_found)
+      fmt::print("Each algorithm found the {} known pairs of the frames that it answered.\n",
+                 known_);
+  }
+
   QuestionInput input_;
   BoxOptions options_;
   std::vector<scene::BoxFrame> frames_;
+  std::size_t known_ = 0;         // pairs that the frames' authors know to meet
   std::vector<char> is_resting_;  // by id
   std::vector<std::unique_ptr<BoxContender>> contenders_;
 };

@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <random>
 #include <set>
 
 #include "algorithms/registry.h"
 #include "harness/base/hash.h"
+#include "harness/kinds/box/box_contender.h"
 #include "harness/scene/aabbs.h"
 #include "harness/scene/box_frames.h"
 #include "tests/harness/commands/program.h"
@@ -322,6 +325,111 @@ TEST_F(PairsCommand, BadRequests) {
   expect_refusal(in + " --broad naive" + out + " --resting " + path("ids.csv"),
                  "ids.csv:3: column id: found 1; expected the id of a box, 0 to 0");
   expect_refusal(in + " --broad naive" + out + " --resting " + path("none.csv"), "none.csv");
+}
+
+// Two frames of a mesh of two faces: a square in the plane z = 0, and a triangle that falls onto it. Edges by their
+// greater vertex: 1-0, 2-0, 2-1, 3-0, 3-2, 5-4, 6-4, 6-5 are 7 to 14; the faces are 15 to 17.
+std::string ply(double z) {
+  return fmt::format(
+      "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float "
+      "z\n"
+      "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n4 0 0\n4 4 0\n0 4 0\n1 1 {0}\n2 1 {0}\n1 2 {0}\n3 0 1 2\n3 0 2 3\n3 4 5 6\n",
+      z);
+}
+
+class MeshFrames : public PairsCommand {
+ protected:
+  void put(const std::string& name, const std::string& text) const {
+    const auto file = folder.path() / "ball" / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  }
+  void put_frames() const {
+    put("frames/ball9.ply", ply(3));
+    put("frames/ball10.ply", ply(1));
+    put("frames/ball11.ply", ply(-1));
+  }
+  std::string frames() const { return path("ball/frames"); }
+};
+
+TEST_F(MeshFrames, AreBoxesOfWhatTheFeaturesSweep) {
+  put_frames();
+  const auto steps = scene::read_box_frames(frames());
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0].number, 9);
+  EXPECT_EQ(steps[1].number, 10);
+  ASSERT_EQ(steps[1].count, 18U);
+  EXPECT_EQ(steps[1].boxes[4], (Aabb{{1, 1, -1}, {1, 1, 1}}));   // a vertex
+  EXPECT_EQ(steps[1].boxes[10], (Aabb{{0, 0, 0}, {0, 4, 0}}));   // the edge from 3 to 0
+  EXPECT_EQ(steps[1].boxes[14], (Aabb{{1, 1, -1}, {2, 2, 1}}));  // the edge from 6 to 5
+  EXPECT_EQ(steps[1].boxes[17], (Aabb{{1, 1, -1}, {2, 2, 1}}));  // the face that falls
+  EXPECT_EQ(steps[1].moved.size(), 7U);  // three vertices, three edges, a face
+  const auto one = scene::read_box_frames(frames() + "/ball10.ply");
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].boxes, steps[1].boxes);
+}
+
+TEST_F(MeshFrames, KnownPairsAreFound) {
+  put_frames();
+  put("boxes/ball10vf.json", "[[4, 15], [5,15]]");
+  put("boxes/ball10ee.json", "[[8,13]]");
+  const Ran all = run_program("query " + frames() + " --out " + path("out.csv"));
+  EXPECT_EQ(all.status, 0) << all.text;
+  EXPECT_THAT(all.text, HasSubstr("Each algorithm found the 3 known pairs"));
+  EXPECT_EQ(read_rows(folder.path() / "out.csv", pair_columns).size() % 2, 0U);
+  const Ran one = run_program("query " + frames() + "/ball10.ply --with naive");
+  EXPECT_EQ(one.status, 0) << one.text;
+  EXPECT_THAT(one.text, HasSubstr("Each algorithm found the 3 known pairs"));
+}
+
+class FindsNothing final : public BroadPhase {
+ public:
+  void build(std::span<const Aabb>) override {}
+  void update(const FrameChange&) override {}
+  Status find_pairs(PairSink& sink) override {
+    sink.start(1);
+    return Status::ok;
+  }
+};
+
+TEST_F(MeshFrames, KnownPairsThatAreNotFoundAreCounted) {
+  put_frames();
+  put("boxes/ball10vf.json", "[[5,15],[4,15]]");
+  const auto steps = scene::read_box_frames(frames());
+  BroadPhaseEntry entry = registry::find<BroadPhaseEntry>("naive");
+  entry.make = [](Executor&) { return std::make_unique<FindsNothing>(); };
+  const kinds::BoxOptions options;
+  const std::vector<char> is_resting;
+  kinds::BoxContender nothing(entry, steps, options, is_resting);
+  nothing.run();
+  EXPECT_EQ(nothing.result(0).missing, 0U);
+  EXPECT_EQ(nothing.result(1).missing, 2U);
+  EXPECT_EQ(nothing.result(1).first_missing, (IndexPair{4, 15}));
+  kinds::BoxContender right(registry::find<BroadPhaseEntry>("naive"), steps, options, is_resting);
+  right.run();
+  EXPECT_EQ(right.result(1).missing, 0U);
+}
+
+TEST_F(MeshFrames, BadOnes) {
+  put_frames();
+  const std::string with = " --broad naive --out " + path("out.csv");
+  const auto refuse_list = [&](const std::string& list, const std::string& text) {
+    put("boxes/ball10vf.json", list);
+    expect_refusal(frames() + with, "boxes/ball10vf.json: " + text);
+  };
+  refuse_list("{}", "no array; expected pairs of ids");
+  refuse_list("[[4]]", "entry 0: expected a pair of ids");
+  refuse_list("[[4,-1]]", "entry 0: expected a pair of ids");
+  refuse_list("[[4,15],[4,18]]", "entry 1: found 4 and 18; expected two of the 18 ids");
+  refuse_list("[[1,17]]", "entry 0: the boxes 1 and 17 are apart");
+  put("boxes/ball10vf.json", "[]");
+  expect_refusal(frames() + "/ball11.ply" + with, "no next frame in its folder");
+  put("frames/other11.ply", ply(0));
+  expect_refusal(frames() + with, "has the number of other11.ply; expected one file a frame");
+  std::filesystem::remove(folder.path() / "ball/frames/other11.ply");
+  put("frames/ball12.ply", "ply\n");
+  expect_refusal(frames() + with, "ball12.ply");
 }
 
 }  // namespace
