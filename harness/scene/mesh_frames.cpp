@@ -112,7 +112,8 @@ void read_known(const fs::path& file, const std::vector<Aabb>& boxes,
     const bool is_pair = pair.is_array() && pair.size() == 2 && pair[0].is_number_unsigned() &&
                          pair[1].is_number_unsigned();
     if (!is_pair) fail(fmt::format("entry {}: expected a pair of ids", i));
-    const auto [a, b] = std::minmax(pair[0].get<std::uint64_t>(), pair[1].get<std::uint64_t>());
+    const auto first = pair[0].get<std::uint64_t>(), second = pair[1].get<std::uint64_t>();
+    const auto [a, b] = std::minmax(first, second);
     if (a == b || b >= boxes.size()) {
       fail(fmt::format(
           "entry {}: found {} and {}; expected two of the {} ids of vertices, edges and faces", i,

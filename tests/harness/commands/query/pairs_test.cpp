@@ -397,7 +397,7 @@ TEST_F(MeshFrames, KnownPairsThatAreNotFoundAreCounted) {
   put_frames();
   put("boxes/ball10vf.json", "[[5,15],[4,15]]");
   const auto steps = scene::read_box_frames(frames());
-  BroadPhaseEntry entry = registry::find<BroadPhaseEntry>("naive");
+  BroadPhaseEntry entry = *registry::find<BroadPhaseEntry>("naive");
   entry.make = [](Executor&) { return std::make_unique<FindsNothing>(); };
   const kinds::BoxOptions options;
   const std::vector<char> is_resting;
@@ -406,7 +406,7 @@ TEST_F(MeshFrames, KnownPairsThatAreNotFoundAreCounted) {
   EXPECT_EQ(nothing.result(0).missing, 0U);
   EXPECT_EQ(nothing.result(1).missing, 2U);
   EXPECT_EQ(nothing.result(1).first_missing, (IndexPair{4, 15}));
-  kinds::BoxContender right(registry::find<BroadPhaseEntry>("naive"), steps, options, is_resting);
+  kinds::BoxContender right(*registry::find<BroadPhaseEntry>("naive"), steps, options, is_resting);
   right.run();
   EXPECT_EQ(right.result(1).missing, 0U);
 }
