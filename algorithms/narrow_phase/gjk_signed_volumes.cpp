@@ -133,8 +133,13 @@ class GjkSignedVolumes final : public NarrowPhase {
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     textbook::for_each_difference(
-        shapes_, batch.pairs, outcomes,
-        [&](textbook::Difference& c, Outcome& outcome) { solve_pair(c, task, outcome); });
+        shapes_, batch.pairs, outcomes, [&](textbook::Difference& c, Outcome& outcome) {
+          int iterations = 0;
+          textbook::answer_distance(
+              c, task, tolerance_,
+              [&](bool wants_distance) { return search(c, wants_distance, iterations); }, outcome);
+          outcome.iterations = iterations;
+        });
   }
 
  private:
@@ -143,6 +148,12 @@ class GjkSignedVolumes final : public NarrowPhase {
     WeightedSimplex simplex;
     textbook::Bounds distance{0, 0};
     bool is_enclosed = false;  // the origin is inside the simplex
+
+    Vec3d direction() const {
+      const double length = simplex.projection.norm();
+      return length > 0 ? Vec3d(simplex.projection / length)
+                        : simplex.nearest(&SupportPoint::w).normalized();
+    }
   };
 
   Search search(textbook::Difference& c, bool wants_distance, int& iterations) const {
@@ -161,11 +172,11 @@ class GjkSignedVolumes final : public NarrowPhase {
         return found;
       }
       if (v.norm() <= c.rounding() || k == max_iterations_) return found;
-      const Vec3d direction = direction_of(simplex);
+      const Vec3d direction = found.direction();
       const SupportPoint w = c.support(-direction);
       found.distance.lower = std::max(found.distance.lower, direction.dot(w.w) - c.rounding());
       const bool is_apart = found.distance.lower > 0;
-      if (is_apart && (!wants_distance || has_met(found.distance, c))) return found;
+      if (is_apart && (!wants_distance || found.distance.have_met(tolerance_, c))) return found;
       if (simplex.has(w)) return found;
       WeightedSimplex next = simplex;
       next.points[next.size++] = w;
@@ -174,45 +185,6 @@ class GjkSignedVolumes final : public NarrowPhase {
       if (!(next.nearest(&SupportPoint::w).squaredNorm() < v.squaredNorm())) return found;
       simplex = next;
     }
-  }
-
-  static Vec3d direction_of(const WeightedSimplex& simplex) {
-    const double length = simplex.projection.norm();
-    return length > 0 ? Vec3d(simplex.projection / length)
-                      : simplex.nearest(&SupportPoint::w).normalized();
-  }
-
-  bool has_met(const textbook::Bounds& distance, const textbook::Difference& c) const {
-    return distance.upper - distance.lower <= tolerance_ + 4 * c.rounding();
-  }
-
-  void solve_pair(textbook::Difference& c, Task task, Outcome& outcome) const {
-    int iterations = 0;
-    const Search found = search(c, task == Task::distance, iterations);
-    const textbook::Bounds& distance = found.distance;
-    if (found.is_enclosed) {
-      textbook::write_overlapping(outcome);
-    } else if (distance.lower > 0) {
-      outcome.answer = Answer::separated;
-      outcome.status =
-          task == Task::intersect || has_met(distance, c) ? Status::ok : Status::not_converged;
-      if (task == Task::distance) write_distance(c, found, outcome);
-    } else if (distance.upper <= 2 * c.rounding()) {
-      textbook::decide_contact(
-          c, distance.upper, [&] { return search(c, false, iterations).distance; }, outcome);
-    } else {
-      textbook::write_undecided(c, Outcome::none, distance.upper, outcome);
-    }
-    outcome.iterations = iterations;
-  }
-
-  static void write_distance(const textbook::Difference& c, const Search& found, Outcome& outcome) {
-    outcome.distance = c.unit() * found.simplex.nearest(&SupportPoint::w).norm();
-    outcome.lower = c.unit() * found.distance.lower;
-    outcome.upper = c.unit() * found.distance.upper;
-    outcome.normal = -direction_of(found.simplex);
-    outcome.witness_a = c.to_world(found.simplex.nearest(&SupportPoint::a));
-    outcome.witness_b = c.to_world(found.simplex.nearest(&SupportPoint::b));
   }
 
   int max_iterations_;

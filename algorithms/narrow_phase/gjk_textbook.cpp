@@ -118,8 +118,13 @@ class GjkTextbook final : public NarrowPhase {
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     textbook::for_each_difference(
-        shapes_, batch.pairs, outcomes,
-        [&](textbook::Difference& c, Outcome& outcome) { solve_pair(c, task, outcome); });
+        shapes_, batch.pairs, outcomes, [&](textbook::Difference& c, Outcome& outcome) {
+          int iterations = 0;
+          textbook::answer_distance(
+              c, task, tolerance_,
+              [&](bool wants_distance) { return search(c, wants_distance, iterations); }, outcome);
+          outcome.iterations = iterations;
+        });
   }
 
  private:
@@ -128,6 +133,8 @@ class GjkTextbook final : public NarrowPhase {
     Simplex simplex;
     textbook::Bounds distance;
     bool is_enclosed;  // the origin is inside the simplex
+
+    Vec3d direction() const { return simplex.nearest(&SupportPoint::w).normalized(); }
   };
 
   Search search(textbook::Difference& c, bool wants_distance, int& iterations) const {
@@ -146,7 +153,7 @@ class GjkTextbook final : public NarrowPhase {
       const SupportPoint w = c.support(-v);
       found.distance.lower = std::max(found.distance.lower, v.dot(w.w) / v.norm() - c.rounding());
       const bool is_apart = found.distance.lower > 0;
-      if (is_apart && (!wants_distance || has_met(found.distance, c))) return found;
+      if (is_apart && (!wants_distance || found.distance.have_met(tolerance_, c))) return found;
       if (simplex.has(w)) return found;
       Simplex next = simplex;
       next.add(w);
@@ -155,40 +162,6 @@ class GjkTextbook final : public NarrowPhase {
       simplex = next;
       v = nearer;
     }
-  }
-
-  bool has_met(const textbook::Bounds& distance, const textbook::Difference& c) const {
-    return distance.upper - distance.lower <= tolerance_ + 4 * c.rounding();
-  }
-
-  void solve_pair(textbook::Difference& c, Task task, Outcome& outcome) const {
-    int iterations = 0;
-    const Search found = search(c, task == Task::distance, iterations);
-    const textbook::Bounds& distance = found.distance;
-    if (found.is_enclosed) {
-      textbook::write_overlapping(outcome);
-    } else if (distance.lower > 0) {
-      outcome.answer = Answer::separated;
-      outcome.status =
-          task == Task::intersect || has_met(distance, c) ? Status::ok : Status::not_converged;
-      if (task == Task::distance) write_distance(c, found, outcome);
-    } else if (distance.upper <= 2 * c.rounding()) {
-      textbook::decide_contact(
-          c, distance.upper, [&] { return search(c, false, iterations).distance; }, outcome);
-    } else {
-      textbook::write_undecided(c, Outcome::none, distance.upper, outcome);
-    }
-    outcome.iterations = iterations;
-  }
-
-  static void write_distance(const textbook::Difference& c, const Search& found, Outcome& outcome) {
-    const Vec3d v = found.simplex.nearest(&SupportPoint::w);
-    outcome.distance = c.unit() * v.norm();
-    outcome.lower = c.unit() * found.distance.lower;
-    outcome.upper = c.unit() * found.distance.upper;
-    outcome.normal = -v.normalized();
-    outcome.witness_a = c.to_world(found.simplex.nearest(&SupportPoint::a));
-    outcome.witness_b = c.to_world(found.simplex.nearest(&SupportPoint::b));
   }
 
   int max_iterations_;

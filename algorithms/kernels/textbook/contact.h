@@ -17,6 +17,10 @@ namespace touchstone::textbook {
 // Bounds on the distance of the origin from C, in its unit, rounding included.
 struct Bounds {
   double lower, upper;
+  // True if they are as close as the tolerance asks, as far as rounding allows.
+  bool have_met(double tolerance, const Difference& c) const {
+    return upper - lower <= tolerance + 4 * c.rounding();
+  }
 };
 
 // Returns true if the origin is inside the tetrahedron by more than rounding. Points of C within `rounding` of these then
@@ -68,6 +72,34 @@ void decide_contact(Difference& c, double upper, const Search& search, Outcome& 
   c.aim(Vec3d::Zero());
   if (holds_all) return write_overlapping(outcome);
   write_undecided(c, one_is_outside ? -away : Outcome::none, upper, outcome);
+}
+
+// Answers by a search for the point of C that is nearest to the origin, for Task::intersect and Task::distance.
+// `search(wants_distance)` returns the `distance` (Bounds), the `simplex` with the combinations `nearest(part)` of its points'
+// members, the unit vector `direction()` from the origin, and whether the origin `is_enclosed` by the simplex.
+template <class Search>
+void answer_distance(Difference& c, Task task, double tolerance, const Search& search,
+                     Outcome& outcome) {
+  const bool wants_distance = task == Task::distance;
+  const auto found = search(wants_distance);
+  const Bounds& distance = found.distance;
+  if (found.is_enclosed) return write_overlapping(outcome);
+  if (!(distance.lower > 0)) {
+    if (distance.upper > 2 * c.rounding())
+      return write_undecided(c, Outcome::none, distance.upper, outcome);
+    return decide_contact(
+        c, distance.upper, [&] { return search(false).distance; }, outcome);
+  }
+  outcome.answer = Answer::separated;
+  outcome.status =
+      !wants_distance || distance.have_met(tolerance, c) ? Status::ok : Status::not_converged;
+  if (!wants_distance) return;
+  outcome.distance = c.unit() * found.simplex.nearest(&SupportPoint::w).norm();
+  outcome.lower = c.unit() * distance.lower;
+  outcome.upper = c.unit() * distance.upper;
+  outcome.normal = -found.direction();
+  outcome.witness_a = c.to_world(found.simplex.nearest(&SupportPoint::a));
+  outcome.witness_b = c.to_world(found.simplex.nearest(&SupportPoint::b));
 }
 
 }  // namespace touchstone::textbook
