@@ -63,5 +63,8 @@ def draw(tables):
     return figure
 
 
+draw.needs = "narrow phases"
+
+
 if __name__ == "__main__":
     sys.exit(common.run({"agreement": draw}, __doc__))

@@ -62,5 +62,8 @@ def draw(tables):
     return figure
 
 
+draw.needs = "broad phases of ours and of libraries at several numbers of bodies, as in datasets/campaigns/broad.toml"
+
+
 if __name__ == "__main__":
     sys.exit(common.run({"broad": draw}, __doc__))

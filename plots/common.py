@@ -205,7 +205,8 @@ def save_all(figures, source, out):
     for name, draw in figures.items():
         figure = draw(source)
         if figure is None:
-            print(f"{name}: nothing to draw in these results")
+            needs = getattr(draw, "needs", None)
+            print(f"{name}: nothing to draw in these results" + (f", which lack {needs}" if needs else ""))
             continue
         drawn += 1
         print(", ".join(save(figure, out, name)))

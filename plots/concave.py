@@ -53,5 +53,8 @@ def draw(tables):
     return figure
 
 
+draw.needs = "pairs with meshes or compounds"
+
+
 if __name__ == "__main__":
     sys.exit(common.run({"concave": draw}, __doc__))

@@ -100,5 +100,8 @@ def draw(tables):
     return figure
 
 
+draw.needs = "pairs at stated distances, as in datasets/campaigns/narrow.toml"
+
+
 if __name__ == "__main__":
     sys.exit(common.run({"narrow": draw}, __doc__))

@@ -60,5 +60,8 @@ def draw(tables):
     return figure
 
 
+draw.needs = "broad phases"
+
+
 if __name__ == "__main__":
     sys.exit(common.run({"phases": draw}, __doc__))

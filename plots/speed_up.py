@@ -57,5 +57,8 @@ def draw(tables):
     return figure
 
 
+draw.needs = "several numbers of threads"
+
+
 if __name__ == "__main__":
     sys.exit(common.run({"speed_up": draw}, __doc__))

@@ -84,5 +84,8 @@ def draw(tables):
     return figure
 
 
+draw.needs = "a scene with several numbers of bodies"
+
+
 if __name__ == "__main__":
     sys.exit(common.run({"time_against_count": draw}, __doc__))

@@ -57,5 +57,8 @@ def draw(tables):
     return figure
 
 
+draw.needs = "broad phases with an interval of the ratio"
+
+
 if __name__ == "__main__":
     sys.exit(common.run({"winners": draw}, __doc__))

@@ -308,8 +308,10 @@ int CommandLine::run(const std::vector<std::string>& words) {
     // The command that the words lead to.
     const CLI::App* at = app_.get();
     while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
-    if (help || at->get_subcommands({}).empty()) {
-      return app_->exit(error) == 0 ? exit_done : exit_bad_request;
+    if (help) return app_->exit(error) == 0 ? exit_done : exit_bad_request;
+    if (at->get_subcommands({}).empty()) {
+      std::fprintf(stderr, "touchstone: %s\nRun with --help for more information.\n", error.what());
+      return exit_bad_request;
     }
     std::fprintf(stderr, "touchstone: %s\nExpected a command, one of:", error.what());
     for (const CLI::App* command : at->get_subcommands({})) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <memory>
 
 #include "harness/base/error.h"
@@ -29,7 +30,7 @@ struct CompareOptions {
   std::string out, csv;
   double threshold = 0.03;
   int runs = 8;
-  bool any_machine = false, noisy = false;
+  bool any_machine = false, noisy = false, all = false;
 
   stats::Noise noise() const { return noisy ? stats::Noise::kept : stats::Noise::left_out; }
 };
@@ -45,26 +46,46 @@ void print(const std::string& title, const std::vector<std::string>& lines) {
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4f}", value); }
 
-void print(const std::vector<stats::ComparedCell>& cells, double threshold) {
-  for (std::size_t i = 0; i < cells.size();) {
-    const stats::SetKey& key = cells[i].key;
+// Prints the cells in their order: all, or those that are slower, and the slowest few of the undecided.
+void print(const CompareOptions& options, const std::vector<stats::ComparedCell>& cells) {
+  constexpr std::size_t most_undecided = 10;
+  std::vector<std::size_t> shown, undecided;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const stats::Verdict verdict = stats::verdict(cells[i], options.threshold);
+    const bool is_shown = options.all || verdict == stats::Verdict::slower;
+    if (is_shown || verdict == stats::Verdict::undecided) {
+      (is_shown ? shown : undecided).push_back(i);
+    }
+  }
+  const auto ratio = [&](std::size_t i) {
+    return std::isnan(cells[i].ratio.median) ? 0 : cells[i].ratio.median;
+  };
+  std::ranges::stable_sort(undecided, std::ranges::greater{}, ratio);
+  const std::size_t left_out = undecided.size() - std::min(undecided.size(), most_undecided);
+  undecided.resize(undecided.size() - left_out);
+  shown.insert(shown.end(), undecided.begin(), undecided.end());
+  std::ranges::sort(shown);
+  for (std::size_t n = 0; n < shown.size();) {
+    const stats::SetKey& key = cells[shown[n]].key;
     base::Table table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
-    for (; i < cells.size() && cells[i].key == key; ++i) {
-      const stats::ComparedCell& cell = cells[i];
+    for (; n < shown.size() && cells[shown[n]].key == key; ++n) {
+      const stats::ComparedCell& cell = cells[shown[n]];
       table.add({cell.label, number(cell.ratio.median), number(cell.ratio.low),
                  number(cell.ratio.high), fmt::format("{:.2g}", cell.p_corrected),
                  fmt::format("{} + {}", cell.squares_a, cell.squares_b),
-                 std::string(to_string(stats::verdict(cell, threshold)))});
+                 std::string(to_string(stats::verdict(cell, options.threshold)))});
     }
     fmt::print("{}\n\n{}\n", key.words(), table.text(base::page_width()));
   }
+  if (left_out > 0)
+    fmt::print("{} more cells are undecided; --all prints every cell\n\n", left_out);
 }
 
 // Prints the judgement of A and B. Returns the exit status.
 int judge(const CompareOptions& options, const stats::Results& a, const stats::Results& b,
           const std::vector<stats::ComparedCell>& cells) {
   print("A and B differ in", stats::remarks(a, b));
-  print(cells, options.threshold);
+  print(options, cells);
   if (!options.csv.empty()) record::write_rows(options.csv, cells, options.threshold);
   const std::vector<std::string> changed = stats::changed_answers(a, b, stats::Compared::answers);
   print("The answers changed", changed);
@@ -78,6 +99,9 @@ int judge(const CompareOptions& options, const stats::Results& a, const stats::R
   fmt::print("{} cells: {} slower, {} undecided, {} same, {} faster, {} not slower\n", cells.size(),
              slower, undecided, count(stats::Verdict::same), count(stats::Verdict::faster),
              count(stats::Verdict::not_slower));
+  if (undecided > 0 && options.programs.empty()) {
+    fmt::print("`touchstone compare --exe OLD --exe NEW` decides more: its runs take turns\n");
+  }
   if (slower > 0 || !changed.empty()) return exit_measured_wrong;
   return undecided > 0 || cells.empty() ? exit_undecided : exit_done;
 }
@@ -181,6 +205,8 @@ void add_compare(Arguments command) {
             "With --exe: folder for the runs (default: results/local/compare in the project)")
       .needs(exe);
   command.text("--csv", options->csv, "Write the cells to this file, too");
+  command.flag("--all", options->all,
+               "Print every cell (default: those that are slower, and ten that are undecided)");
   command.flag("--any-machine", options->any_machine,
                "Compare although the machines differ or are not known");
   command.flag("--noisy", options->noisy,

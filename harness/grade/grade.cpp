@@ -139,6 +139,11 @@ WitnessGrade grade_witnesses(const Outcome& outcome, Task task, const oracle::Bo
                        std::ranges::any_of(std::array{n, p, q}, [](const Vec3d& v) {
                          return is_partly_nan(v) || v.array().isInf().any();
                        });
+  const bool has_two_sides =
+      outcome.answer == Answer::separated || outcome.answer == Answer::overlapping;
+  grade.missing = has_two_sides && std::isfinite(outcome.distance) &&
+                  std::ranges::any_of(std::array{n, p, q},
+                                      [](const Vec3d& v) { return v.array().isNaN().all(); });
   if (n.allFinite()) grade.normal_error = std::abs(n.stableNorm() - 1);
   if (p.allFinite() && q.allFinite()) {
     grade.off_body = std::max(distance_from(p, a, oracle), distance_from(q, b, oracle));

@@ -74,6 +74,9 @@ struct WitnessGrade {
   double off_body = none;      // metres: greatest distance of a witness point from its body
   double length_error = none;  // metres: |a - b| less |distance|
   double normal_error = none;  // | |n| - 1 |
+  // True for a distance of separate bodies, or a depth of overlapping ones, without the normal or a
+  // point. An infinite depth has no points.
+  bool missing = false;
   // True for a vector that contains NaN, for an infinite number that is not the exact depth, or if
   // a distance that was asked for and found is missing.
   bool not_a_number = false;

@@ -8,6 +8,7 @@
 //   side of contact, bounds       1e-12     1e-9        1e-5       1e-4
 //   distance, depth               1e-9      1e-9        1e-4       1e-4
 //   bounds of `touching` apart    6e-14     6e-14       4e-5       4e-5
+//   witness points, off the body  1e-4      1e-4        1e-4       1e-4
 //
 // Each is a part of the pair's scale, and holds end to end: against the pair of the case. The scale
 // is the greatest of the pair's size (pair_size), its distance and, for points away from their own
@@ -32,6 +33,7 @@ struct Margins {
   double verdict;     // side of contact, certified bounds
   double length;      // distance, depth
   double resolution;  // width of the bounds of `touching`
+  double witness = 1e-4;
 };
 
 Margins documented_margins(Precision scalar, bool extreme);

@@ -13,6 +13,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
+#include "harness/base/nearest_name.h"
 
 namespace touchstone::kinds {
 
@@ -54,10 +55,9 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
     const auto at =
         std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
     if (at == entries.end()) {
-      std::string known = "all, ours, libraries, oracle, none";
-      for (const Entry& entry : entries) known += ", " + entry.info.name;
-      throw base::InputError(
-          fmt::format("no {} is called '{}'; expected some of {}", what, name, known));
+      std::vector<std::string_view> known = {"all", "ours", "libraries", "oracle", "none"};
+      for (const Entry& entry : entries) known.push_back(entry.info.name);
+      throw base::InputError(base::unknown_name(what, name, known));
     }
     if (!is_built(at->info)) {
       throw base::InputError(

@@ -41,6 +41,7 @@ std::string_view to_string(Holds holds) {
   switch (holds) {
     case Holds::pass: return "pass";
     case Holds::fail: return "FAIL";
+    case Holds::differs: return "differs on this machine";
     case Holds::faster: return "faster";
     case Holds::undecided: return "undecided";
   }
@@ -50,7 +51,10 @@ std::string_view to_string(Holds holds) {
 Holds holds(const MedianInterval& ratio, double band_low, double band_high) {
   // Comparisons with a missing number (NaN) are false.
   if (ratio.low >= band_low && ratio.high <= band_high) return Holds::pass;
-  if (ratio.low > band_high || ratio.high < band_low) return Holds::fail;
+  if (ratio.low > band_high * machine_spread || ratio.high < band_low / machine_spread) {
+    return Holds::fail;
+  }
+  if (ratio.low > band_high || ratio.high < band_low) return Holds::differs;
   return Holds::undecided;
 }
 
@@ -78,8 +82,9 @@ TableCheck check_tables(const std::filesystem::path& reference, const Results& h
     const bool suspect =
         (set != nullptr && set->suspect) || (set_there != nullptr && set_there->suspect);
     if (!suspect) cell.state = holds(cell.ratio, cell.band_low, cell.band_high);
-    if (cell.state == Holds::fail && cell.ratio.high < cell.band_low && contestant->is_ours() &&
-        baseline->origin == record::RowOrigin::peer) {
+    const bool is_below = (cell.state == Holds::fail || cell.state == Holds::differs) &&
+                          cell.ratio.high < cell.band_low;
+    if (is_below && contestant->is_ours() && baseline->origin == record::RowOrigin::peer) {
       cell.state = Holds::faster;
     }
     check.cells.push_back(std::move(cell));

@@ -11,10 +11,15 @@
 
 namespace touchstone::stats {
 
-// Pass: the ratio's interval lies within the stated band. Fail: it lies wholly outside. Faster: it
-// lies wholly below, and an algorithm of ours is compared with a library. Undecided: none of these,
-// or there is no interval, or no band, or the set is suspect here or there.
-enum class Holds : std::uint8_t { pass, fail, faster, undecided };
+// A band is of one machine. Others have other caches, vectors and loads: on a second one a ratio was
+// off its band by a factor of 1.2. No machine is expected to explain more than this one.
+inline constexpr double machine_spread = 2;
+
+// Pass: the ratio's interval lies within the stated band. Fail: it lies wholly outside the band
+// that is wider by machine_spread on both sides. Differs: it lies wholly outside the band, but not
+// that far. Faster: it lies wholly below, and an algorithm of ours is compared with a library.
+// Undecided: none of these, or there is no interval, or no band, or the set is suspect here or there.
+enum class Holds : std::uint8_t { pass, fail, differs, faster, undecided };
 std::string_view to_string(Holds holds);
 Holds holds(const MedianInterval& ratio, double band_low, double band_high);
 

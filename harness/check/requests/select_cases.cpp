@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/base/error.h"
+#include "harness/base/nearest_name.h"
 #include "harness/check/requests/select_narrow.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/selection.h"
@@ -67,8 +68,7 @@ std::vector<Selectable> selected_kinds(const std::string& list) {
     if (at == all.end()) {
       std::vector<std::string_view> known;
       for (const Selectable& kind : all) known.push_back(kind.name);
-      throw base::InputError(
-          fmt::format("no kind is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
+      throw base::InputError(base::unknown_name("kind", name, known));
     }
     chosen.push_back(*at);
   }
@@ -92,8 +92,7 @@ std::map<std::string_view, std::string> shares_of(const std::string& list,
     for (const Selectable& kind : selectable) {
       for (const AlgorithmInfo* one : kind.algorithms) known.push_back(one->name);
     }
-    throw base::InputError(fmt::format("no algorithm is called '{}'; expected some of {}", name,
-                                       fmt::join(known, ", ")));
+    throw base::InputError(base::unknown_name("algorithm", name, known));
   }
   return shares;
 }

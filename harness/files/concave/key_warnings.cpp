@@ -1,4 +1,4 @@
-// Compares keys by the number of letters to insert, delete, replace or exchange with the next.
+// Compares keys with those of cases.
 #include "harness/files/concave/key_warnings.h"
 
 #include <algorithm>
@@ -6,9 +6,9 @@
 #include <cctype>
 #include <cstdio>
 #include <optional>
-#include <vector>
 
 #include "harness/base/file_text.h"
+#include "harness/base/nearest_name.h"
 
 namespace touchstone::files {
 namespace {
@@ -39,23 +39,6 @@ constexpr std::array<std::string_view, 25> known_keys = {"id",
                                                          "as",
                                                          "quaternion_exact"};
 
-std::size_t edits(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  for (std::size_t k = 0; k <= b.size(); ++k) last[k] = k;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      row[k] =
-          std::min({last[k] + 1, row[k - 1] + 1, last[k - 1] + (a[i - 1] != b[k - 1] ? 1 : 0)});
-      const bool exchanged = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
-      if (exchanged) row[k] = std::min(row[k], before[k - 2] + 1);
-    }
-    before.swap(last);
-    last.swap(row);
-  }
-  return last[b.size()];
-}
-
 // The known key that was meant, if any.
 std::optional<std::string_view> meant(const std::string& key) {
   if (key.size() < 3 || key.size() > 40) return {};
@@ -64,7 +47,7 @@ std::optional<std::string_view> meant(const std::string& key) {
     c = c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const std::string_view known : known_keys) {
     const std::size_t most = known.size() < 4 ? 0 : known.size() < 6 ? 1 : 2;
-    if (edits(small, known) <= most) return known;
+    if (base::edits(small, known) <= most) return known;
   }
   return {};
 }

@@ -4,6 +4,7 @@
 #include "harness/base/byte_hash.h"
 #include "harness/base/file_name.h"
 #include "harness/base/file_text.h"
+#include "harness/base/nearest_name.h"
 #include "harness/base/shell_word.h"
 
 namespace touchstone {
@@ -52,6 +53,19 @@ TEST(ByteHash, DoesNotDependOnThePieces) {
   }
   EXPECT_NE(of({text}), of({text.substr(1)}));
   EXPECT_NE(of({std::string_view("\0", 1)}), of({std::string_view("\0\0", 2)}));
+}
+
+TEST(Names, ASlipOfThePenGetsTheNearestName) {
+  const std::vector<std::string_view> known = {"all", "gjk", "gjk-lanes", "sweep-and-prune"};
+  const auto text = [&](std::string_view name) {
+    return base::unknown_name("algorithm", name, known);
+  };
+  EXPECT_EQ(text("gjk-lane"), "no algorithm is called 'gjk-lane'; did you mean gjk-lanes?");
+  EXPECT_EQ(text("gkj"), "no algorithm is called 'gkj'; did you mean gjk?");
+  EXPECT_EQ(text("what"),
+            "no algorithm is called 'what'; expected some of all, gjk, gjk-lanes, sweep-and-prune");
+  EXPECT_NE(text(std::string(1000, 'x')).find("expected some of"), std::string::npos);
+  EXPECT_NE(text("").find("expected some of"), std::string::npos);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ enum class Harm : int {
   gives_up,
   crashes,
   hangs,
-  nan
+  nan,
+  no_points
 };
 
 // Answers for balls by the formula, and applies the harm to pairs whose second ball is to the right
@@ -38,13 +39,15 @@ class Planted final : public NarrowPhase {
       const Pose& a = batch.pairs.poses[batch.pairs.first[i]];
       const Pose& b = batch.pairs.poses[batch.pairs.second[i]];
       const Vec3d between = b.translation - a.translation;
-      const double radii = shapes_[batch.pairs.shape_of[batch.pairs.first[i]]].radius +
-                           shapes_[batch.pairs.shape_of[batch.pairs.second[i]]].radius;
+      const double radius_a = shapes_[batch.pairs.shape_of[batch.pairs.first[i]]].radius;
+      const double radius_b = shapes_[batch.pairs.shape_of[batch.pairs.second[i]]].radius;
       Outcome& out = outcomes[i];
-      out.distance = between.norm() - radii;
+      out.distance = between.norm() - radius_a - radius_b;
       out.answer = out.distance > 0 ? Answer::separated : Answer::overlapping;
       out.status = Status::ok;
       out.normal = between.normalized();
+      out.witness_a = a.translation + radius_a * out.normal;
+      out.witness_b = b.translation - radius_b * out.normal;
       if (between.x() > 0) do_harm(out);
       if (microseconds_ > 0) usleep(static_cast<useconds_t>(microseconds_));
     }
@@ -68,6 +71,7 @@ class Planted final : public NarrowPhase {
       case Harm::crashes: std::abort();
       case Harm::hangs: usleep(60'000'000); break;
       case Harm::nan: out.normal.x() = Outcome::none; break;
+      case Harm::no_points: out.witness_b.setConstant(Outcome::none); break;
     }
   }
 

@@ -73,7 +73,7 @@ class CompareCells : public testing::Test {
 };
 
 TEST_F(CompareCells, TheSameIsStatusZero) {
-  const Ran ran = compare("--csv " + (folder_.path() / "cells.csv").string());
+  const Ran ran = compare("--all --csv " + (folder_.path() / "cells.csv").string());
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("hit, box\n"));
   EXPECT_THAT(ran.text, HasSubstr("2 cells: 0 slower, 0 undecided, 2 same"));

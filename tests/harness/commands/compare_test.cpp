@@ -28,6 +28,8 @@ TEST_F(CompareCommand, TheSameIsStatusZero) {
   const Ran ran = compare("--csv " + path("cells.csv"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("5 cells: 0 slower, 0 undecided, 5 same"));
+  EXPECT_THAT(ran.text, testing::Not(testing::HasSubstr("uniform-grid")));
+  EXPECT_THAT(compare("--all").text, testing::HasSubstr("uniform-grid"));
   const auto rows = read_rows(folder_.path() / "cells.csv", {"algorithm", "verdict"});
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(rows[0], (std::vector<std::string>{"sweep-one-axis", "same"}));
@@ -39,6 +41,7 @@ TEST_F(CompareCommand, ARegressionIsStatusOne) {
   run_.blocks[0].contestants[1].seconds *= 1.05;
   EXPECT_EQ(compare().status, 1);
   EXPECT_THAT(compare().text, testing::HasSubstr("SLOWER"));
+  EXPECT_THAT(compare().text, testing::Not(testing::HasSubstr("naive")));
   EXPECT_EQ(compare("--threshold 0.1").status, 0);
   // In the other direction it is faster.
   EXPECT_EQ(run_program("compare " + path("b") + " " + path("a")).status, 0);
@@ -70,6 +73,8 @@ TEST_F(CompareCommand, TooLittleIsStatusThree) {
   const Ran ran = compare();
   EXPECT_EQ(ran.status, 3) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("5 undecided"));
+  EXPECT_THAT(ran.text,
+              testing::HasSubstr("`touchstone compare --exe OLD --exe NEW` decides more"));
 }
 
 TEST_F(CompareCommand, BadRequests) {
@@ -130,12 +135,19 @@ TEST_F(CompareCommand, TablesAreWrittenAndChecked) {
   const std::string check = "reproduce " + path("a") + " --results " + path("b");
   Ran ran = run_program(check);
   EXPECT_EQ(ran.status, 0) << ran.text;
-  EXPECT_THAT(ran.text, testing::HasSubstr("3 cells: 3 pass, 0 fail, 0 undecided; 0 answers"));
+  EXPECT_THAT(ran.text,
+              testing::HasSubstr(
+                  "3 cells: 3 pass, 0 fail, 0 differ on this machine, 0 undecided; 0 answers"));
+  run_.blocks[0].contestants[1].seconds *= 2;
+  run_.write(folder_.path() / "b");
+  ran = run_program(check);
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, testing::HasSubstr("3 cells: 2 pass, 0 fail, 1 differ on this machine"));
   run_.blocks[0].contestants[1].seconds *= 2;
   run_.write(folder_.path() / "b");
   ran = run_program(check);
   EXPECT_EQ(ran.status, 1) << ran.text;
-  EXPECT_THAT(ran.text, testing::HasSubstr("3 cells: 2 pass, 1 fail, 0 undecided"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("3 cells: 2 pass, 1 fail, 0 differ on this machine"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b/tables.md"));
   expect_refusal("reproduce " + path("b") + " --results " + path("b"), "b/ratios.csv", folder_);
   expect_refusal("show --tables " + path("none"), "none", folder_);

@@ -287,6 +287,7 @@ TEST(Grade, WitnessPoints) {
   EXPECT_EQ(grade.length_error, 0);
   EXPECT_EQ(grade.normal_error, 0);
   EXPECT_FALSE(grade.not_a_number);
+  EXPECT_FALSE(grade.missing);
 
   o.witness_a = {1, 1.25, 0.5};
   EXPECT_EQ(apart.witnesses(o, Task::distance).off_body, 0.25);
@@ -314,6 +315,28 @@ TEST(Grade, WitnessPointsOfRoundBodies) {
   o.witness_a = {1, 0, 0};
   o.witness_b = {1.5, 0, 0};
   EXPECT_EQ(ball_beside.witnesses(o, Task::distance).off_body, 0.5);
+}
+
+TEST(Grade, MissingWitnessPoints) {
+  Cubes apart(3), meet(1.5);
+  const auto missing = [](Cubes& cubes, const Outcome& o, Task task) {
+    return cubes.witnesses(o, task).missing;
+  };
+  Outcome o = outcome(Answer::separated, Status::ok, 1);
+  EXPECT_TRUE(missing(apart, o, Task::distance));
+  EXPECT_FALSE(missing(apart, o, Task::intersect));
+  o.normal = {1, 0, 0};
+  EXPECT_TRUE(missing(apart, o, Task::signed_distance));
+  o.witness_a = {1, 0, 0};
+  EXPECT_TRUE(missing(apart, o, Task::distance));
+  o.witness_b = {2, 0, 0};
+  EXPECT_FALSE(missing(apart, o, Task::distance));
+  EXPECT_TRUE(missing(meet, outcome(Answer::overlapping, Status::ok, -0.5), Task::penetration));
+  EXPECT_FALSE(missing(meet, outcome(Answer::overlapping, Status::ok, -inf), Task::penetration));
+  EXPECT_FALSE(missing(meet, outcome(Answer::overlapping), Task::distance));
+  EXPECT_FALSE(
+      missing(apart, outcome(Answer::separated, Status::not_converged, 1), Task::distance));
+  EXPECT_FALSE(missing(apart, outcome(Answer::touching, Status::ok, 0), Task::distance));
 }
 
 TEST(Grade, NotANumber) {

@@ -94,6 +94,16 @@ TEST_F(Beyond, BoundsNumbersAndLosses) {
   EXPECT_EQ(beyond(), "");
 }
 
+TEST_F(Beyond, WitnessPoints) {
+  answer.witnesses.off_body = 0.9e-3;
+  EXPECT_EQ(beyond(), "");
+  answer.witnesses.off_body = 1.1e-3;
+  EXPECT_THAT(beyond(), HasSubstr("a witness point is off its body by 0.0011 m"));
+  answer.witnesses.off_body = 0;
+  answer.witnesses.missing = true;
+  EXPECT_EQ(beyond(), "a number without its normal or witness points");
+}
+
 TEST_F(Beyond, BodiesWithoutAnyScale) {
   answer.scale = 0;
   EXPECT_EQ(beyond(), "");

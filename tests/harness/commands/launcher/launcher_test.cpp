@@ -302,6 +302,12 @@ TEST_F(Launcher, SaysHowFarABuildIs) {
   EXPECT_THAT(launched.text, HasSubstr("touchstone: built 20 of 40 files in "));
   EXPECT_THAT(launched.text, HasSubstr("touchstone: built 40 of 40 files in "));
   EXPECT_THAT(launched.text, Not(HasSubstr("x.o")));
+  write_program("bin/ninja", stub + "\necho '[1/2] x.o'; echo 'x.cpp:1:2: warning: i < size()'");
+  const Launched warned = launch("list");
+  EXPECT_EQ(warned.status, 0);
+  EXPECT_THAT(warned.text,
+              HasSubstr("x.cpp:1:2: warning: i < size()\ntouchstone: the compiler warns"));
+  EXPECT_NE(warned.ran, "");
   write_program("bin/ninja", "echo '[1/2] x.o'; echo 'x.cpp:1: error'; exit 1");
   const Launched failed = launch("list");
   EXPECT_EQ(failed.status, 2);
