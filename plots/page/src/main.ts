@@ -5,9 +5,10 @@ import { Slices } from "./base/slices";
 import { read_bundle } from "./bundle";
 import { playback } from "./scene/playback";
 import { compare } from "./sections/compare";
+import { fastest } from "./sections/fastest";
 import { files } from "./sections/files";
 import { speed } from "./sections/speed";
-import { summary } from "./sections/summary";
+import { about, summary } from "./sections/summary";
 import { trade } from "./sections/trade";
 import { verdicts } from "./sections/verdicts";
 import { Folder } from "./tables/folder";
@@ -33,10 +34,13 @@ async function build(page: HTMLElement): Promise<void> {
   ];
   document.title = `Touchstone: ${names.join(", ")}`;
   const makers: (() => HTMLElement | null)[] = [
+    () => fastest(bundle, folders),
     () => summary(bundle, folders),
     () => compare(folders),
-    ...folders.flatMap((folder) => [speed, trade, verdicts, files].map((of) => () => of(folder))),
+    ...folders.flatMap((folder) => [speed, trade, verdicts].map((of) => () => of(folder))),
     ...bundle.scenes.map((scene) => () => playback(scene)),
+    ...folders.map((folder) => () => files(folder)),
+    () => about(bundle, folders),
   ];
   const sections: HTMLElement[] = [];
   await slices.begin("Drawing the results");

@@ -111,6 +111,6 @@ test("a pair is one entry, with its wrong answers first", async () => {
   assert.deepEqual(pairs[0].answers.map(({ algorithm }) => algorithm), ["gjk", "mpr", "sat"]);
   assert.equal(
     pair_text(pairs[0]),
-    "a thin gap: separated by 1.00e−9 m; gjk says overlapping; mpr is wrong in its numbers (approximate by design)",
+    "a thin gap: separated by 1 nm; gjk says overlapping; mpr is wrong in its numbers (approximate by design)",
   );
 });

@@ -24,6 +24,13 @@ export function answer_for(prefix: string, show: (rest: string) => Element | nul
   shown_by.set(prefix, show);
 }
 
+const restored_by = new Map<string, (state: URLSearchParams) => void>();
+
+// An address "#anchor?name=value" has the state of a part.
+export function restore_by(anchor: string, restore: (state: URLSearchParams) => void): void {
+  restored_by.set(anchor, restore);
+}
+
 // This is the element that an address means. It is drawn if it was not.
 export function element_of(anchor: string): Element | null {
   const present = document.getElementById(anchor);
@@ -53,6 +60,9 @@ export function show_address(): void {
   } catch {
     // An address that somebody cut in the middle of a sign stays as it is.
   }
+  const [part = "", state] = anchor.split("?");
+  const restore = restored_by.get(part);
+  if (restore && state !== undefined) return restore(new URLSearchParams(state));
   const element = anchor ? element_of(anchor) : null;
   if (element) reveal(element);
 }

@@ -81,7 +81,7 @@ export function phases(folder: Folder): HTMLElement | null {
   return part(
     `${folder.anchor}-phases`,
     "Phases of a frame",
-    quiet("Medians of the phases. A structure that is updated is built once, which is not drawn."),
+    quiet("Medians of the phases. Where a structure is updated, its one build is left out."),
     ...chosen_chart(
       "Set",
       sets.map((set) => set_text(set[0]!)),

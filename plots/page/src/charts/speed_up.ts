@@ -59,7 +59,7 @@ export function speed_up(folder: Folder): HTMLElement | null {
   return part(
     `${folder.anchor}-threads`,
     "Speed-up with threads",
-    quiet("Right of the dashed line more threads are faster. Bars are 95 % intervals."),
+    quiet("Right of the dashed line more threads are faster. Lines: 95 % intervals."),
     ...chosen_chart(
       "Set",
       sets.map((set) => set_text(set[0]!, ["threads"])),
