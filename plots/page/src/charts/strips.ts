@@ -26,7 +26,7 @@ export const words_of = (input: Input): string => {
   if (lead === "no library is right") return `no library is right; ours: ${ours}`;
   if (lead === "none of ours is right") return "none of ours is right";
   if (lead === "no library") return "no library to compare with";
-  if (lead === "undecided") return "too few undisturbed rounds";
+  if (lead === "unclear") return "too few undisturbed rounds to tell, or not trusted";
   const interval = `${times_text(ratio)} (${interval_text(low, high)})`;
   return `${lead === "equal" ? "equal, " : ""}${interval}: ${ours} against ${library}`;
 };

@@ -12,7 +12,7 @@ const classes: Record<Lead, string> = {
   ours: "ours",
   libraries: "library",
   equal: "equal",
-  undecided: "equal",
+  unclear: "equal",
   "no library is right": "alone",
   "none of ours is right": "library",
   "no library": "none",
@@ -105,7 +105,7 @@ export function winners(folder: Folder): HTMLElement | null {
     "The fastest of ours against the fastest library",
     quiet(
       "Time of the fastest correct library over that of the fastest correct algorithm of ours, with its 95 % interval. " +
-        "Blue: ours is faster. Orange: a library is. Grey: equal, or undecided. Outlined: no library is right.",
+        "Blue: ours is faster. Orange: a library is. Grey: equal, or unclear. Outlined: no library is right.",
     ),
     ...[...tables].map(([shape, inputs]) => matrix(inputs, shapes[shape]!)),
   );

@@ -1,5 +1,5 @@
-// The first screen: who is fastest, and who is right. A line for each question, its race, and its inputs. What the reader
-// chooses is in the address.
+// The first screen: who is fastest, and who is right. It has a line for each question, the race of one, and its inputs.
+// What the reader chooses is in the address.
 import { restore_by } from "../base/anchors";
 import { choice, controls } from "../base/controls";
 import { make, quiet } from "../base/dom";
@@ -30,6 +30,7 @@ const anchor = "fastest";
 
 // A filter has a name in the address, a label, and the value of an input or of an entry.
 const of_input: [string, string, (input: Input) => string][] = [
+  ["task", "Question", ({ question }) => question],
   ["scene", "Scene", ({ scene }) => scene],
   ["bodies", "Bodies", ({ bodies }) => bodies],
   ["kind", "Kind", ({ kind }) => kind],
@@ -62,11 +63,7 @@ export function fastest(bundle: Bundle, folders: Folder[]): HTMLElement | null {
   function draw(): void {
     const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset["key"] : undefined;
     const { inputs } = wanted();
-    const compared = (input: Input): number => (input.lead === "no library" ? 1 : 0);
-    const groups = grouped(
-      [...inputs].sort((a, b) => compared(a) - compared(b)),
-      ({ question }) => question,
-    );
+    const groups = grouped(inputs, ({ line }) => line);
     const question = groups.has(state["question"] ?? "") ? state["question"]! : [...groups.keys()][0]!;
     place.replaceChildren(
       races.length > 1 ? choose_results() : "",
@@ -155,15 +152,14 @@ function middle_text(inputs: Input[]): string {
   if (ratios.length === 0) return "";
   const half = (ratios.length - 1) / 2;
   const middle = Math.sqrt(ratios[Math.floor(half)]! * ratios[Math.ceil(half)]!);
-  const range =
-    ratios.length > 1 ? ` (${number_text(ratios[0]!)} … ${number_text(ratios[ratios.length - 1]!)})` : "";
-  return `; median ${times_text(middle)}${range}`;
+  if (ratios.length === 1) return `; ${times_text(middle)}`;
+  return `; median ${times_text(middle)} (${number_text(ratios[0]!)} … ${number_text(ratios[ratios.length - 1]!)})`;
 }
 
 function race(inputs: Input[], given: State, change: (next: State) => void): HTMLElement[] {
-  // Times with one thread and with several are not averaged, unless the reader asks for it.
+  // Times of several questions, or numbers of threads, are not averaged unless the reader asks for it.
   const [fewest = ""] = distinct(inputs.map(({ threads }) => threads)).sort((a, b) => Number(a) - Number(b));
-  const state: State = { threads: fewest, ...given };
+  const state: State = { task: inputs[0]!.question, threads: fewest, ...given };
   const matching = (without = ""): Input[] =>
     inputs.filter((input) =>
       of_input.every(

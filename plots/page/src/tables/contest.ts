@@ -29,7 +29,7 @@ export type Lead =
   | "ours"
   | "libraries"
   | "equal" // their interval has 1 in it
-  | "undecided" // there are too few undisturbed rounds for an interval
+  | "unclear" // too few undisturbed rounds for an interval, or the baseline differs from its twin
   | "no library is right"
   | "none of ours is right"
   | "no library";
@@ -37,7 +37,8 @@ export type Lead =
 export interface Input {
   key: string;
   question: string;
-  name: string; // what tells it from the others of its question
+  line: string; // its question, or a scene that was asked everything, as in the summary
+  name: string; // what tells it from the others of its line
   scene: string;
   bodies: string;
   kind: string;
@@ -66,6 +67,7 @@ const questions: Record<string, string> = {
 
 const batch_of = (label: string): string => / by (\d+)\b/.exec(label)?.[1] ?? "";
 const scalar_of = (label: string): string => /\b(double|float)\b/.exec(label)?.[1] ?? "";
+const label_key = (row: Row): string => `${set_key(row)}\n${row.text("algorithm")}`;
 const key_of = (row: Row, batch: string): string => `${set_key(row)}\n${batch}`;
 
 export const is_ours = (origin: string): boolean => origin === "ours";
@@ -119,8 +121,7 @@ function entries_of(
   agreement: Map<string, Row>,
   approximate: string[],
 ): Entry[] {
-  const own = (all: Map<string, Row>, row: Row): Row | undefined =>
-    all.get(`${set_key(row)}\n${row.text("algorithm")}`);
+  const own = (all: Map<string, Row>, row: Row): Row | undefined => all.get(label_key(row));
   const paired = rows.some((row) => own(ratios, row));
   const entries = rows.map((row): Entry => {
     const ratio = own(ratios, row);
@@ -156,7 +157,13 @@ function entries_of(
 }
 
 // Says who leads, from a row of a table of the best.
-function lead_of(best: Row | undefined, library: string, ratio: string, entries: Entry[]): Lead {
+function lead_of(
+  best: Row | undefined,
+  library: string,
+  ratio: string,
+  entries: Entry[],
+  suspect: boolean,
+): Lead {
   const libraries = entries.filter((each) => is_library(each.origin));
   if (!best || best.text("ours") === "") {
     const ours = entries.filter((each) => is_ours(each.origin));
@@ -164,9 +171,10 @@ function lead_of(best: Row | undefined, library: string, ratio: string, entries:
     return all_wrong ? "none of ours is right" : "no library"; // or a table that was not kept
   }
   if (best.text(library) === "") return libraries.length > 0 ? "no library is right" : "no library";
+  if (suspect) return "unclear";
   if (best.number(`${ratio}_low`) > 1) return "ours";
   if (best.number(`${ratio}_high`) < 1) return "libraries";
-  return Number.isNaN(best.number(`${ratio}_low`)) ? "undecided" : "equal";
+  return Number.isNaN(best.number(`${ratio}_low`)) ? "unclear" : "equal";
 }
 
 const variant_of = (row: Row): string =>
@@ -188,7 +196,7 @@ export function inputs_of(folder: Folder, approximate: string[] = []): Input[] {
       folder
         .rows(file)
         .filter((row) => row.text("canary") !== "1")
-        .map((row) => [`${set_key(row)}\n${row.text("algorithm")}`, row]),
+        .map((row) => [label_key(row), row]),
     );
   const ratios = by_label("ratios.csv"),
     agreement = by_label("agreement.csv");
@@ -209,7 +217,8 @@ export function inputs_of(folder: Folder, approximate: string[] = []): Input[] {
     const row = rows[0]!;
     const entries = entries_of(rows, ratios, agreement, approximate);
     const [best, library = "", ratio = ""] = bests.get(key) ?? [];
-    const lead = lead_of(best, library, ratio, entries);
+    const suspect = rows.some((each) => ratios.get(label_key(each))?.text("suspect") === "1");
+    const lead = lead_of(best, library, ratio, entries, suspect);
     const compared = lead === "ours" || lead === "libraries" || lead === "equal";
     const value = (end: string): number => (compared ? best!.number(`${ratio}${end}`) : NaN);
     const task = row.text("task");
@@ -219,7 +228,8 @@ export function inputs_of(folder: Folder, approximate: string[] = []): Input[] {
       question:
         (cells ? "How long does a query take?" : (questions[task] ?? task)) +
         (batch === "" ? "" : batch === "1" ? " One pair a call" : ` ${batch} pairs a call`),
-      name: set_text(row, ["task"]),
+      line: "",
+      name: "",
       scene: cells ? row.text("group") : row.text("scene"),
       bodies: row.text("bodies"),
       kind: cells ? row.text("cell") : [row.text("pair_kind"), variant_of(row)].filter(Boolean).join(", "),
@@ -234,17 +244,31 @@ export function inputs_of(folder: Folder, approximate: string[] = []): Input[] {
       first: winners.get(key) ?? null,
     };
   });
-  return inputs.filter(({ entries }) => entries.length > 0).map((input, _, all) => ({
-    ...input,
-    name: short_name(input, all),
-  }));
+  const usable = inputs.filter(({ entries }) => entries.length > 0);
+  const alone = whole_scenes(usable);
+  for (const input of usable) input.line = alone.includes(input.scene) ? input.scene : input.question;
+  for (const [line, own] of grouped(usable, (input) => input.line)) {
+    for (const input of own) input.name = short_name(input, own, !alone.includes(line));
+  }
+  const rank = ({ lead, line }: Input): number => (lead === "no library" ? 2 : alone.includes(line) ? 0 : 1);
+  return usable.sort((a, b) => rank(a) - rank(b));
 }
 
-// An input is named by what differs among the inputs of its question.
-function short_name(input: Input, all: Input[]): string {
-  const rows = all.filter(({ question }) => question === input.question).map(({ entries }) => entries[0]!.row);
+// Scenes with times of broad and of narrow phases. The summary has a line for each of the first four.
+function whole_scenes(inputs: Input[]): string[] {
+  const has = (scene: string, narrow: boolean): boolean =>
+    inputs.some((input) => input.scene === scene && (input.entries[0]!.row.text("task") !== "") === narrow);
+  const scenes = distinct(inputs.map(({ scene }) => scene));
+  return scenes.filter((scene) => scene !== "" && has(scene, true) && has(scene, false)).slice(0, 4);
+}
+
+// An input is named by what differs among the inputs of its line.
+function short_name(input: Input, all: Input[], of_question: boolean): string {
+  const rows = all.map(({ entries }) => entries[0]!.row);
   const same = set_columns.filter((column) => distinct(rows.map((row) => row.text(column))).length === 1);
-  return set_text(input.entries[0]!.row, ["task", ...same]) || input.scene || input.question;
+  return (
+    set_text(input.entries[0]!.row, of_question ? ["task", ...same] : same) || (of_question ? input.scene : "boxes")
+  );
 }
 
 // How often each side leads, in words.
@@ -255,7 +279,7 @@ export function leads_text(inputs: Input[]): string {
   const told: [number, string][] = [
     [count("libraries"), "libraries in"],
     [count("equal"), "equal in"],
-    [count("undecided"), "undecided in"],
+    [count("unclear"), "unclear in"],
     [count("no library is right"), "no library is right in"],
     [count("none of ours is right"), "none of ours is right in"],
   ];
