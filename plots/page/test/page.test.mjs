@@ -150,7 +150,7 @@ test("cells have a race, crosses beside who was wrong, and samples", async () =>
   assert.equal(await race.locator('g[aria-label="dot"] circle').count(), 2);
   assert.equal(await race.locator("text", { hasText: "✕" }).count(), 1);
   assert.match(await page.locator("#fastest .told").textContent(), /ours faster in 2 of 2; median 2\.45 ×/);
-  assert.match(await page.locator("#fastest .faults").textContent(), /wrong side of contact: theirs/);
+  assert.match(await page.locator("#fastest .faults").textContent(), /wrong: theirs/);
   await page.locator('table[data-file="set_times.csv"] tbody tr').nth(1).focus();
   await page.keyboard.press("Enter");
   assert.match(await page.locator("#cells-samples").textContent(), /6 samples, of which 1 were disturbed/);
@@ -206,7 +206,7 @@ test("the first screen says who is fastest and who is right, and its state is in
       "ours faster in 2 of 2; median 3.87 × (3 … 5)",
       "ours faster in 0 of 2, equal in 1, no library is right in 1; 1.01 ×",
     ]);
-    assert.match(await first.locator(".faults").textContent(), /Libraries: wrong side of contact: theirs \(7 of 50 answers\)\. Ours: all right\./);
+    assert.match(await first.locator(".faults").textContent(), /Libraries: wrong: theirs \(7 of 50 answers\)\. Ours: all right\./);
     // One thread alone is shown at first.
     assert.equal(await first.getByLabel("Threads").locator("option:checked").textContent(), "1");
     assert.deepEqual(await names(), ["mine", "theirs", "slow float"]);

@@ -28,8 +28,11 @@ const name_of = ({ algorithm, origin }: Standing): string =>
 
 function tip_of(each: Standing, inputs: number): string {
   const lines = [name_of(each), `${times_text(each.relative)} (${interval_text(each.low, each.high)})`];
-  if (inputs === 1) lines.push(`${time_text(each.entries[0]!.seconds)} (${time_interval(each.entries[0]!.row)})`);
-  else lines.push(`asked in ${each.inputs} of ${inputs} inputs`);
+  if (inputs === 1) {
+    const { row, seconds } = each.entries[0]!;
+    lines.push(`${time_text(seconds)} (${time_interval(row)})`, `${row.text("seconds")} s`);
+  }
+  if (inputs > 1) lines.push(`asked in ${each.inputs} of ${inputs} inputs`);
   if (each.fault) {
     const where = inputs > 1 ? `, and in ${each.faults} of ${each.inputs} inputs something` : "";
     lines.push(`${each.fault.kind}: ${each.fault.words}${where}`);
@@ -43,14 +46,14 @@ export function race_chart(all: Standing[], inputs: number, width: number): Elem
   const rows = [...whole, ...rest];
   const row_height = 18;
   const narrow = width < 500;
-  const left = narrow ? 128 : 168;
+  const left = narrow ? 140 : 190;
   const ends = rows.flatMap((each) => [each.relative, each.low, each.high]).filter((x) => x > 0 && Number.isFinite(x));
   const low = Math.min(1, ...ends) / 1.02,
     high = Math.max(1.5, ...ends) * 1.05;
   const margin_right = narrow ? 74 : 132;
   const place = (each: Standing): string => each.algorithm;
   // A text follows the end of its bar's interval.
-  const text_at = (each: Standing): number => Math.max(each.relative, each.high || 0, 1);
+  const text_at = (each: Standing): number => Math.max(each.relative, Number.isFinite(each.high) ? each.high : 0, 1);
   const text = (each: Standing): string => {
     const value = times_text(each.relative);
     const time = inputs === 1 ? `, ${time_text(each.entries[0]!.seconds)}` : "";
@@ -101,16 +104,16 @@ export function race_chart(all: Standing[], inputs: number, width: number): Elem
       Plot.text(rows, {
         x: low,
         y: place,
-        text: (each: Standing) => shortened(name_of(each), narrow ? 20 : 26),
+        text: (each: Standing) => shortened(name_of(each), narrow ? 18 : 26),
         textAnchor: "end",
         dx: -22,
-        fill: (each: Standing) => (is_library(each.origin) ? "var(--peer)" : is_ours(each.origin) ? "var(--ours)" : "var(--quiet)"),
+        fill: (each: Standing) => colour_of(each.origin),
       }),
       Plot.text(faulty, {
         x: low,
         y: place,
         text: (each: Standing) => signs[each.fault!.kind],
-        fill: (each: Standing) => (["≈"].includes(signs[each.fault!.kind]) ? "var(--quiet)" : "var(--wrong)"),
+        fill: (each: Standing) => (signs[each.fault!.kind] === "✕" ? "var(--wrong)" : "var(--quiet)"),
         fontWeight: "bold",
         dx: -10,
       }),

@@ -59,7 +59,7 @@ function matrix(inputs: Input[], { down, across }: Shape): HTMLElement {
   const rows = [...grouped(inputs, title)];
   return make(
     "div",
-    { class: "scroll" },
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": "ours against libraries" },
     make(
       "table",
       { class: "matrix" },

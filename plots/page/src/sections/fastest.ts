@@ -61,6 +61,7 @@ export function fastest(bundle: Bundle, folders: Folder[]): HTMLElement | null {
   }
 
   function draw(): void {
+    const unfolded = place.querySelector("details")?.open ?? false;
     const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset["key"] : undefined;
     const { inputs } = wanted();
     const groups = grouped(inputs, ({ line }) => line);
@@ -80,6 +81,7 @@ export function fastest(bundle: Bundle, folders: Folder[]): HTMLElement | null {
       ),
       ...race(groups.get(question)!, state, change),
     );
+    if (unfolded) place.querySelector("details")?.setAttribute("open", "");
     if (focused) place.querySelector<HTMLElement>(`[data-key="${CSS.escape(focused)}"]`)?.focus();
   }
 
@@ -209,7 +211,7 @@ function race(inputs: Input[], given: State, change: (next: State) => void): HTM
       ),
       make(
         "figure",
-        { class: "inputs", style: `width: ${right}px` },
+        { class: inputs.length > 36 ? "inputs long" : "inputs", style: `width: ${right}px` },
         make("figcaption", {}, "Fastest library over fastest of ours, by input"),
         on_click<Input>(input_chart(inputs, right), pick),
       ),

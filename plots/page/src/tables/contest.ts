@@ -355,7 +355,7 @@ export function faults_text(inputs: Input[]): string[] {
       return each.slice(0, most_names).join(", ") + (more > 0 ? ` and ${more} more` : "");
     };
     const kinds: Record<Fault["kind"], string> = {
-      wrong: "wrong side of contact",
+      wrong: "wrong",
       failed: "failed",
       inexact: "inexact numbers",
       "by design": "approximate by design",
