@@ -82,6 +82,9 @@ files::OrderedJson approximate() {
   for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (entry.traits.approximate) names.push_back(entry.info.name);
   }
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
+    if (entry.approximate) names.push_back(entry.info.name);
+  }
   return names;
 }
 
