@@ -18,7 +18,10 @@ function contents(sections: HTMLElement[]): HTMLElement {
     const title = each.querySelector("h2")?.firstChild?.textContent ?? "";
     return make("li", {}, make("a", { href: `#${each.id}` }, title));
   });
-  return make("nav", { "aria-label": "contents" }, make("ul", {}, ...links));
+  const list = make("ul", {}, ...links);
+  const few = 9; // they have one line
+  const shown = links.length <= few ? list : make("details", {}, make("summary", {}, "Contents"), list);
+  return make("nav", { "aria-label": "contents" }, shown);
 }
 
 async function build(page: HTMLElement): Promise<void> {

@@ -55,14 +55,14 @@ function reveal(element: Element): void {
 
 export function show_address(): void {
   let anchor = location.hash.slice(1);
+  const mark = anchor.indexOf("?");
+  const restore = mark < 0 ? undefined : restored_by.get(anchor.slice(0, mark));
+  if (restore) return restore(new URLSearchParams(anchor.slice(mark + 1)));
   try {
     anchor = decodeURIComponent(anchor);
   } catch {
     // An address that somebody cut in the middle of a sign stays as it is.
   }
-  const [part = "", state] = anchor.split("?");
-  const restore = restored_by.get(part);
-  if (restore && state !== undefined) return restore(new URLSearchParams(state));
   const element = anchor ? element_of(anchor) : null;
   if (element) reveal(element);
 }

@@ -71,14 +71,21 @@ function labels(curves: Curve[], domain: [number, number]): (Curve & { bodies: n
   const room = panel_height - margins.marginTop - margins.marginBottom;
   const ends = curves.map(({ points }) => points[points.length - 1]!);
   const heights = ends.map(({ seconds }) => ((Math.log(seconds) - low) / (high - low)) * room);
-  const moved = apart(heights, 13, 0, room);
-  const bodies = Math.max(...ends.map((end) => end.bodies));
+  const moved = [...heights];
+  // Only names that begin at the same number of bodies can cover each other.
+  for (const places of grouped(ends.keys(), (i) => String(ends[i]!.bodies)).values()) {
+    const free = apart(places.map((i) => heights[i]!), 13, 0, room);
+    places.forEach((i, k) => (moved[i] = free[k]!));
+  }
   return curves.map((curve, i) => ({
     ...curve,
-    bodies,
+    bodies: ends[i]!.bodies,
     seconds: Math.exp(low + (moved[i]! / room) * (high - low)),
   }));
 }
+
+const decades = ([low, high]: [number, number]): number[] =>
+  Array.from({ length: 16 }, (_, i) => 10 ** (i - 10)).filter((each) => each >= low && each <= high);
 
 function panel(points: Point[], title: string, domain: [number, number], width: number): Element {
   const curves = best_curves(points);
@@ -92,20 +99,19 @@ function panel(points: Point[], title: string, domain: [number, number], width: 
     ariaLabel: `time against the number of bodies: ${title}`,
     x: {
       type: "log",
-      label: "bodies",
-      labelAnchor: "right",
-      labelArrow: "none",
+      label: null,
       ticks: counts.filter((_, i) => counts.length <= 4 || i % Math.ceil(counts.length / 4) === 0),
       tickFormat: count_text,
       tickSize: 3,
     },
-    y: { type: "log", label: null, tickFormat: time_text, ticks: 5, tickSize: 0, grid: true, domain },
+    y: { type: "log", label: null, tickFormat: time_text, ticks: decades(domain), tickSize: 0, grid: true, domain },
+    color: { type: "identity" },
     marks: [
       ...quiet_lines.map((line) =>
         Plot.line(line, {
           x: "bodies",
           y: "seconds",
-          stroke: is_library(line[0]!.origin) ? library_colour(line[0]!.algorithm) : "var(--quiet)",
+          stroke: (each: Point) => (is_library(each.origin) ? library_colour(each.algorithm) : "var(--quiet)"),
           strokeOpacity: 0.35,
           strokeWidth: 1,
           strokeDasharray: line[0]!.origin === "limit" ? "2 3" : undefined,
@@ -116,7 +122,7 @@ function panel(points: Point[], title: string, domain: [number, number], width: 
         Plot.line(points, {
           x: "bodies",
           y: "seconds",
-          stroke: colour,
+          stroke: () => colour,
           strokeWidth: colour === "var(--ink)" ? 2.2 : 1.6,
           ariaDescription: "best",
         }),
@@ -132,6 +138,8 @@ function panel(points: Point[], title: string, domain: [number, number], width: 
           y: "seconds",
           text: "name",
           fill: "colour",
+          stroke: "var(--ground)",
+          strokeWidth: 4,
           fontWeight: label.colour === "var(--ink)" ? "bold" : "normal",
           fontSize: 11,
           textAnchor: "start",
@@ -208,8 +216,8 @@ export function time_against_count(folder: Folder, pick: (row: Row) => void): HT
     `${folder.anchor}-curves`,
     "Time against the number of bodies",
     quiet(
-      "Grey: ours. Black: the best of ours, named at its end. Colours: the best of each library; pale lines are its other " +
-        "algorithms. Bars: 95 % intervals.",
+      "Time up, number of bodies across. Grey: ours. Bold: the best of ours, named at its end. Colours: the best of each " +
+        "library; pale: its other algorithms. Bars: 95 % intervals.",
     ),
     sets.length > 1 ? controls(choice("Set", titles, 0, show)) : null,
     figures,

@@ -2,7 +2,7 @@
 import * as Plot from "@observablehq/plot";
 import { interval_text } from "../base/numbers";
 import type { Input, Lead } from "../tables/contest";
-import { ratio_ticks, times_text } from "./race";
+import { ratio_axis, ratio_ticks, times_text } from "./race";
 
 export const colour_of_lead: Partial<Record<Lead, string>> = {
   ours: "var(--ours)",
@@ -59,17 +59,19 @@ export function strip_axis(domain: [number, number], width: number): Element {
     width,
     height: 18,
     margin: 0,
-    marginTop: 16,
     x: {
       type: "log",
       domain,
-      axis: "top",
-      label: null,
-      tickSize: 0,
-      ticks: ratio_ticks(domain[0] * 1.15, domain[1] / 1.15, width < 250 ? 4 : 7),
-      tickFormat: times_text,
+      axis: null,
     },
-    marks: [],
+    marks: [
+      Plot.text(ratio_ticks(domain[0] * 1.1, domain[1] / 1.1, 9), {
+        x: (tick: number) => tick,
+        text: times_text,
+        frameAnchor: "bottom",
+        dy: -2,
+      }),
+    ],
   });
 }
 
@@ -77,7 +79,8 @@ export function strip_axis(domain: [number, number], width: number): Element {
 export function input_chart(inputs: Input[], width: number): Element {
   const place = (input: Input): string => input.key;
   const value = (input: Input): number => (has_ratio(input) ? input.ratio : 1);
-  const rows = [...inputs].sort((a, b) => value(a) - value(b));
+  const order = (input: Input): number => (has_ratio(input) ? input.ratio : Infinity);
+  const rows = [...inputs].sort((a, b) => order(a) - order(b) || 0);
   const domain = ratio_domain(inputs);
   const left = Math.min(width * 0.52, 14 + 6.1 * Math.max(...rows.map(({ name }) => name.length)));
   const letters = Math.floor((left - 10) / 6.1);
@@ -94,15 +97,11 @@ export function input_chart(inputs: Input[], width: number): Element {
     x: {
       type: "log",
       domain,
-      axis: "top",
-      label: null,
-      tickSize: 0,
-      ticks: ratio_ticks(...domain, 5),
-      tickFormat: times_text,
+      axis: null,
     },
     y: { domain: rows.map(place), axis: null },
     marks: [
-      Plot.gridX(ratio_ticks(...domain, 5), { stroke: "var(--line)", strokeOpacity: 1 }),
+      ...ratio_axis(ratio_ticks(...domain, width < 400 ? 4 : 7)),
       Plot.ruleX([1], { stroke: "var(--ink)" }),
       Plot.ruleY(
         rows.filter((each) => has_ratio(each) && each.low > 0),

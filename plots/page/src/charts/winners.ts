@@ -1,7 +1,7 @@
 // The matrix has the best library against the best of ours: kinds of pairs down and questions across, or scenes down and
 // numbers of bodies across.
 import { make, quiet } from "../base/dom";
-import { interval_text, number_text } from "../base/numbers";
+import { count_text, interval_text, number_of, number_text } from "../base/numbers";
 import { part } from "../base/section";
 import { inputs_of, type Input, type Lead } from "../tables/contest";
 import type { Folder } from "../tables/folder";
@@ -30,7 +30,8 @@ function cell(inputs: Input[]): HTMLElement {
   if (!input) return make("td", { class: "none" });
   // A lead of sixteen has the full colour.
   const strength = has_ratio(input) ? Math.min(1, Math.abs(Math.log(input.ratio)) / Math.log(16)) : 0;
-  const names = [ours_of(input), input.library].filter(Boolean).join(" / ");
+  // Most have doubles, which goes without saying.
+  const names = [ours_of(input), input.library].filter(Boolean).join(" / ").replaceAll(" double", "");
   return make(
     "td",
     {
@@ -50,8 +51,12 @@ interface Shape {
   across: (input: Input) => string;
 }
 
+// Columns of numbers go from the least; others stay in their order.
+const by_number = (a: string, b: string): number =>
+  (number_of(a.replaceAll(",", "").split(" ")[0]!) || 0) - (number_of(b.replaceAll(",", "").split(" ")[0]!) || 0);
+
 function matrix(inputs: Input[], { down, across }: Shape): HTMLElement {
-  const columns = distinct(inputs.map(across)).sort((a, b) => (parseInt(a) || 0) - (parseInt(b) || 0));
+  const columns = distinct(inputs.map(across)).sort(by_number);
   const parts = inputs.map(down);
   const telling = parts[0]!.map((_, i) => distinct(parts.map((each) => each[i]!)).length > 1);
   const title = (input: Input): string =>
@@ -59,7 +64,7 @@ function matrix(inputs: Input[], { down, across }: Shape): HTMLElement {
   const rows = [...grouped(inputs, title)];
   return make(
     "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": "ours against libraries" },
+    { class: "scroll matrices", tabindex: 0, role: "region", "aria-label": "ours against libraries" },
     make(
       "table",
       { class: "matrix" },
@@ -91,13 +96,13 @@ export function winners(folder: Folder): HTMLElement | null {
   const tables = grouped(compared, (input) => (with_kinds(input) ? "kinds" : is_cell(input) ? "cells" : "bodies"));
   const shapes: Record<string, Shape> = {
     kinds: {
-      down: (input) => [input.kind, input.scene, input.bodies && `${input.bodies} bodies`, words_of_threads(input)],
+      down: (input) => [input.kind, input.scene, words_of_threads(input)],
       across: ({ question }) => question,
     },
     cells: { down: ({ scene }) => [scene], across: ({ kind }) => kind },
     bodies: {
       down: (input) => [input.scene, input.kind, words_of_threads(input)],
-      across: ({ bodies }) => `${bodies} bodies`,
+      across: ({ bodies }) => `${count_text(Number(bodies))} bodies`,
     },
   };
   return part(

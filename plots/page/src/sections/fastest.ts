@@ -108,7 +108,7 @@ export function fastest(bundle: Bundle, folders: Folder[]): HTMLElement | null {
   return section_at(anchor, "Which is fastest, and is it right?", place);
 }
 
-const page_width = (): number => Math.min(innerWidth, 1216) - 42;
+const page_width = (): number => Math.max(300, Math.min(innerWidth, 1216) - 42);
 const is_narrow = (): boolean => innerWidth < 700;
 
 // Each question has a strip: the best of ours against the best library, a mark for each input.
@@ -169,7 +169,10 @@ function race(inputs: Input[], given: State, change: (next: State) => void): HTM
           name === without || !state[name] || !inputs.some((each) => value(each) === state[name]) || value(input) === state[name],
       ),
     );
-  const shown = matching();
+  // Where libraries take part, inputs without one would leave them all out of the mean.
+  const all = matching();
+  const with_library = all.filter(({ lead }) => lead !== "no library");
+  const shown = with_library.length > 0 ? with_library : all;
   const scalars = distinct(inputs.flatMap(({ entries }) => entries.map(({ scalar }) => scalar))).filter(Boolean);
   const entries = shown
     .flatMap((input) => input.entries)

@@ -2,7 +2,7 @@
 // leads: the page reads them from its tables of the best, as the summary does.
 import { count_text, number_text } from "../base/numbers";
 import type { Folder } from "./folder";
-import { distinct, grouped, set_columns, set_key, set_text } from "./set";
+import { distinct, grouped, set_key } from "./set";
 import type { Row } from "./table";
 
 export interface Fault {
@@ -264,11 +264,20 @@ function whole_scenes(inputs: Input[]): string[] {
 
 // An input is named by what differs among the inputs of its line.
 function short_name(input: Input, all: Input[], of_question: boolean): string {
-  const rows = all.map(({ entries }) => entries[0]!.row);
-  const same = set_columns.filter((column) => distinct(rows.map((row) => row.text(column))).length === 1);
-  return (
-    set_text(input.entries[0]!.row, of_question ? ["task", ...same] : same) || (of_question ? input.scene : "boxes")
+  const differs = (value: (input: Input) => string): boolean => distinct(all.map(value)).length > 1;
+  // A scene that has one number of bodies needs none in its name.
+  const counts = [...grouped(all, ({ scene }) => scene).values()].some(
+    (own) => distinct(own.map(({ bodies }) => bodies)).length > 1,
   );
+  const { scene, bodies, kind, threads, question } = input;
+  const parts = [
+    differs((each) => each.scene) ? scene : "",
+    counts && bodies ? count_text(Number(bodies)) : "",
+    of_question ? "" : question.replace("?", ""),
+    differs((each) => each.kind) || !of_question ? kind : "",
+    differs((each) => each.threads) && threads !== "1" ? `${threads} threads` : "",
+  ];
+  return parts.filter(Boolean).join(", ") || kind || scene || question;
 }
 
 // How often each side leads, in words.
