@@ -456,7 +456,7 @@ test("columns that say nothing are left out, until the file is shown as it stand
     const grid = page.locator("#made-times");
     const columns = () => grid.locator("th[data-column]").evaluateAll((heads) => heads.map((head) => head.dataset.column));
     assert.deepEqual(await columns(), [
-      "bodies", "algorithm", "origin", "seconds", "seconds_low", "seconds_high", "scene_hash", "update", "find_pairs",
+      "bodies", "algorithm", "origin", "seconds", "seconds_low", "seconds_high", "update", "find_pairs",
     ]);
     assert.match(await grid.textContent(), /The same in all rows: scene grid, threads 1, .*Empty in all rows: task, pair kind/);
     const low = grid.locator('tbody tr').first().locator("td").nth(4);

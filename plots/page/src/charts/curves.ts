@@ -111,6 +111,7 @@ function panel(points: Point[], title: string, domain: [number, number], width: 
         Plot.line(line, {
           x: "bodies",
           y: "seconds",
+          z: null,
           stroke: (each: Point) => (is_library(each.origin) ? library_colour(each.algorithm) : "var(--quiet)"),
           strokeOpacity: 0.35,
           strokeWidth: 1,
@@ -122,6 +123,7 @@ function panel(points: Point[], title: string, domain: [number, number], width: 
         Plot.line(points, {
           x: "bodies",
           y: "seconds",
+          z: null,
           stroke: () => colour,
           strokeWidth: colour === "var(--ink)" ? 2.2 : 1.6,
           ariaDescription: "best",

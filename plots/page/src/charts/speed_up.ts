@@ -23,7 +23,7 @@ const bar_of = (row: Row): Bar => ({
 });
 
 function chart_of(rows: Row[]): Element {
-  const bars = rows.map(bar_of).filter((bar) => Number.isFinite(bar.speed_up));
+  const bars = rows.filter((row) => row.text("threads") !== row.text("base_threads")).map(bar_of).filter((bar) => Number.isFinite(bar.speed_up));
   bars.sort((a, b) => b.speed_up - a.speed_up);
   return Plot.plot({
     width: 960,
