@@ -44,7 +44,7 @@ const views = [
   { name: "comparison", element: "#comparison-ratios figure", height: 460 },
   { name: "curves_dark", element: "#reference-curves .panels", dark: true },
   { name: "phone", element: "#fastest", height: 1300, width: 390 },
-  { name: "playback_dark", element: "#rock-pile-playback .player", height: 540, dark: true, act: play_two },
+  { name: "playback_dark", element: "#rock-pile-playback .player", height: 440, dark: true, act: play_two },
 ];
 
 await mkdir(folder, { recursive: true });
