@@ -19,7 +19,7 @@ export function ratio_ticks(low: number, high: number, most: number): number[] {
   const fine = inside(all);
   if (fine.length <= most) return fine;
   const decades = inside(all.filter((_, i) => i % 3 === 0));
-  const step = Math.ceil(decades.length / most);
+  const step = Math.ceil(decades.length / Math.max(1, most));
   return decades.filter((each) => Math.round(Math.log10(each)) % step === 0);
 }
 
@@ -83,7 +83,7 @@ export function race_chart(all: Standing[], inputs: number, width: number): Elem
     },
     y: { domain: rows.map(place), label: null, tickSize: 0, axis: null, padding: 0.3 },
     marks: [
-      ...ratio_axis(ratio_ticks(low, high, narrow ? 4 : 9)),
+      ...ratio_axis(ratio_ticks(low, high, (width - left - margin_right) / 42)),
       Plot.barX(rows, {
         x1: 1,
         x2: "relative",

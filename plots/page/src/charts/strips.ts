@@ -65,7 +65,7 @@ export function strip_axis(domain: [number, number], width: number): Element {
       axis: null,
     },
     marks: [
-      Plot.text(ratio_ticks(domain[0] * 1.1, domain[1] / 1.1, 9), {
+      Plot.text(ratio_ticks(domain[0] * 1.1, domain[1] / 1.1, width / 42), {
         x: (tick: number) => tick,
         text: times_text,
         frameAnchor: "bottom",
@@ -101,7 +101,7 @@ export function input_chart(inputs: Input[], width: number): Element {
     },
     y: { domain: rows.map(place), axis: null },
     marks: [
-      ...ratio_axis(ratio_ticks(...domain, width < 400 ? 4 : 7)),
+      ...ratio_axis(ratio_ticks(...domain, (width - left) / 42)),
       Plot.ruleX([1], { stroke: "var(--ink)" }),
       Plot.ruleY(
         rows.filter((each) => has_ratio(each) && each.low > 0),
