@@ -76,6 +76,18 @@ files::OrderedJson origins() {
   return names;
 }
 
+// Algorithms whose errors are known by design, and are no fault.
+files::OrderedJson approximate() {
+  files::OrderedJson names = files::OrderedJson::array();
+  for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
+    if (entry.traits.approximate) names.push_back(entry.info.name);
+  }
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
+    if (entry.approximate) names.push_back(entry.info.name);
+  }
+  return names;
+}
+
 report::RecordingRequest recording_request(const ReportOptions& options) {
   report::RecordingRequest request;
   request.page = options.out;
@@ -171,6 +183,7 @@ void make_report(const ReportOptions& options) {
                                                {{"format", 1},
                                                 {"made", made()},
                                                 {"origins", origins()},
+                                                {"approximate", approximate()},
                                                 {"results", std::move(results)},
                                                 {"scenes", std::move(scenes)}});
   fmt::print("{}: {:.1f} MB\n", options.out, static_cast<double>(bytes) / 1e6);

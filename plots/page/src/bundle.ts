@@ -5,6 +5,7 @@ export interface Bundle {
   format: 1;
   made: { version: string; commit: string; tree: string; date: string };
   origins: Record<string, string>; // each algorithm's: ours, peer or oracle
+  approximate: string[]; // algorithms whose errors are known, and are no fault
   results: Results[];
   scenes: Recording[];
 }

@@ -5,9 +5,10 @@ import { Slices } from "./base/slices";
 import { read_bundle } from "./bundle";
 import { playback } from "./scene/playback";
 import { compare } from "./sections/compare";
+import { fastest } from "./sections/fastest";
 import { files } from "./sections/files";
 import { speed } from "./sections/speed";
-import { summary } from "./sections/summary";
+import { about, summary } from "./sections/summary";
 import { trade } from "./sections/trade";
 import { verdicts } from "./sections/verdicts";
 import { Folder } from "./tables/folder";
@@ -17,7 +18,10 @@ function contents(sections: HTMLElement[]): HTMLElement {
     const title = each.querySelector("h2")?.firstChild?.textContent ?? "";
     return make("li", {}, make("a", { href: `#${each.id}` }, title));
   });
-  return make("nav", { "aria-label": "contents" }, make("ul", {}, ...links));
+  const list = make("ul", {}, ...links);
+  const few = 9; // they have one line
+  const shown = links.length <= few ? list : make("details", {}, make("summary", {}, "Contents"), list);
+  return make("nav", { "aria-label": "contents" }, shown);
 }
 
 async function build(page: HTMLElement): Promise<void> {
@@ -33,10 +37,13 @@ async function build(page: HTMLElement): Promise<void> {
   ];
   document.title = `Touchstone: ${names.join(", ")}`;
   const makers: (() => HTMLElement | null)[] = [
+    () => fastest(bundle, folders),
     () => summary(bundle, folders),
     () => compare(folders),
-    ...folders.flatMap((folder) => [speed, trade, verdicts, files].map((of) => () => of(folder))),
+    ...folders.flatMap((folder) => [speed, trade, verdicts].map((of) => () => of(folder))),
     ...bundle.scenes.map((scene) => () => playback(scene)),
+    ...folders.map((folder) => () => files(folder)),
+    () => about(bundle, folders),
   ];
   const sections: HTMLElement[] = [];
   await slices.begin("Drawing the results");

@@ -71,8 +71,10 @@ const column = async (page, data_file, name) => {
 test("algorithms are switched, all and none too", () =>
   on_page(async (page) => {
     const curves = page.locator("#made-curves");
-    const lines = () => curves.locator('g[aria-label="line"] path').count();
+    const lines = (which = "algorithm") => curves.locator(`g[aria-description="${which}"] path`).count();
     assert.equal(await lines(), 2);
+    assert.ok((await lines("best")) > 0);
+    await curves.getByText("choose among 2").click();
     await curves.getByLabel("their-tree").uncheck();
     assert.equal(await lines(), 1);
     await curves.getByText("none", { exact: true }).click();
@@ -114,7 +116,7 @@ test("grades filter by regime and by the size of an error", () =>
 test("hovering tells, and clicking shows the samples", () =>
   on_page(async (page) => {
     const chart = page.locator("#made-curves figure svg");
-    const dot = chart.locator('g[aria-label="dot"] path').first();
+    const dot = chart.locator('g[aria-description="points"] circle').first();
     await dot.scrollIntoViewIfNeeded();
     await dot.hover({ force: true });
     const tip = chart.locator('g[aria-label="tip"]');
@@ -126,7 +128,7 @@ test("hovering tells, and clicking shows the samples", () =>
     assert.equal(await samples.locator('g[aria-label="dot"] path').count(), 30);
   }));
 
-test("cells have a chart, crosses beside who was wrong, and samples", async () => {
+test("cells have a race, crosses beside who was wrong, and samples", async () => {
   const header = "group,cell,algorithm,origin,";
   const graded = "missed,false_hits,inexact,status";
   const cells = ["box", "hull"].flatMap((cell) => [`hit,${cell},mine,ours,`, `hit,${cell},theirs,peer,`]);
@@ -144,16 +146,107 @@ test("cells have a chart, crosses beside who was wrong, and samples", async () =
   });
   const out = join(await mkdtemp(join(tmpdir(), "page-")), "cells.html");
   const { page, complaints } = await open(browser, await fill(process.env.PAGE, out, bundle_of([results], [])));
-  const chart = page.locator("#cells-cells figure svg");
-  assert.equal(await chart.locator('g[aria-label="dot"] path').count(), 4);
-  assert.equal(await chart.locator("text", { hasText: "✕" }).count(), 1);
-  assert.match(await page.locator("#summary").textContent(), /faster than every library.* in 2 of 2 sets/);
+  const race = page.locator("#fastest .race svg");
+  assert.equal(await race.locator('g[aria-label="dot"] circle').count(), 2);
+  assert.equal(await race.locator("text", { hasText: "✕" }).count(), 1);
+  assert.match(await page.locator("#fastest .told").textContent(), /ours faster in 2 of 2; median 2\.45 ×/);
+  assert.match(await page.locator("#fastest .faults").textContent(), /wrong: theirs/);
   await page.locator('table[data-file="set_times.csv"] tbody tr').nth(1).focus();
   await page.keyboard.press("Enter");
   assert.match(await page.locator("#cells-samples").textContent(), /6 samples, of which 1 were disturbed/);
   assert.deepEqual(complaints, []);
   await page.close();
 });
+
+// Two scenes and two questions. The library is equal to ours on cubes, and wrong on hulls.
+const raced = () => {
+  const header = "scene,bodies,threads,task,pair_kind,";
+  const sets = ["grid,100,1,,,", "grid,100,2,,,", "pile,9,1,distance,cube,", "pile,9,1,distance,hull,"];
+  const times = sets.flatMap((set, i) => [
+    `${set}mine,ours,frame,1e-6,9e-7,1.1e-6,0,12,1\n`,
+    `${set}slow float,ours,frame,4e-6,3.9e-6,4.1e-6,0,12,1\n`,
+    `${set}theirs,peer,frame,${[3, 5, 1, 0.5][i]}e-6,,,${Number(i === 3)},12,1\n`,
+  ]);
+  return folder_of("raced", {
+    "times.csv": `${header}algorithm,origin,unit,seconds,seconds_low,seconds_high,wrong,samples,noisy\n${times.join("")}`,
+    "agreement.csv": `${header}algorithm,origin,queries,wrong,worst_error,depth_bound\n${sets[3]}theirs,peer,50,7,,0\n`,
+    "broad_best.csv":
+      `${header}ours,peer,peer_ratio,peer_ratio_low,peer_ratio_high\n` +
+      `${sets[0]}mine,theirs,3,2.8,3.2\n${sets[1]}mine,theirs,5,4.8,5.2\n`,
+    "narrow_best.csv":
+      `${header}ours,right_peer,right_peer_ratio,right_peer_ratio_low,right_peer_ratio_high\n` +
+      `${sets[2]}mine,theirs,1.01,0.9,1.1\n${sets[3]}mine,,0,0,0\n`,
+    "winners.csv":
+      `${header}winner,runner_up,ratio,ratio_low,ratio_high\n` +
+      `${sets[0]}mine,theirs,3,2.8,3.2\n${sets[2]}mine,theirs,1.01,0.9,1.1\n`,
+  });
+};
+
+async function on_race(work, hash = "") {
+  const out = join(await mkdtemp(join(tmpdir(), "page-")), "race.html");
+  const { page, complaints } = await open(browser, await fill(process.env.PAGE, out, bundle_of([raced()])), hash);
+  const first = page.locator("#fastest");
+  await work({
+    page,
+    first,
+    // The names from the top, without the texts of the axis and beside the bars.
+    names: () =>
+      first.locator(".race svg text").evaluateAll((texts) =>
+        texts.map((each) => each.textContent).filter((each) => /^(mine|slow float|theirs)$/.test(each)),
+      ),
+    caption: () => first.locator(".race figcaption").textContent(),
+  });
+  assert.deepEqual(complaints, []);
+  await page.close();
+}
+
+test("the first screen says who is fastest and who is right, and its state is in the address", () =>
+  on_race(async ({ page, first, names, caption }) => {
+    assert.deepEqual(await first.locator(".told").allTextContents(), [
+      "ours faster in 2 of 2; median 3.87 × (3 … 5)",
+      "ours faster in 0 of 2, equal in 1, no library is right in 1; 1.01 ×",
+    ]);
+    assert.match(await first.locator(".faults").textContent(), /Libraries: wrong: theirs \(7 of 50 answers\)\. Ours: all right\./);
+    // One thread alone is shown at first.
+    assert.equal(await first.getByLabel("Threads").locator("option:checked").textContent(), "1");
+    assert.deepEqual(await names(), ["mine", "theirs", "slow float"]);
+    assert.match(await caption(), /mine is 3 × \(2\.8 to 3\.2\) as fast as theirs/);
+    await first.getByRole("button", { name: "How far apart" }).click();
+    assert.equal(await first.locator(".inputs svg text", { hasText: "no library is right" }).count(), 1);
+    await first.getByLabel("Kind").selectOption("hull");
+    assert.deepEqual(await names(), ["theirs", "mine", "slow float"]);
+    assert.equal(await first.locator(".race svg text", { hasText: "✕" }).count(), 1);
+    await first.getByLabel("Kind").selectOption("cube");
+    assert.match(await caption(), /mine = theirs/);
+    await first.getByLabel("Numbers").or(first.getByLabel("Show")).first().selectOption("ours alone");
+    assert.deepEqual(await names(), ["mine", "slow float"]);
+    const address = new URLSearchParams(new URL(page.url()).hash.split("?")[1]);
+    assert.equal(address.get("kind"), "cube");
+    assert.equal(address.get("show"), "ours alone");
+  }));
+
+test("an address brings the state of the first screen back", () =>
+  on_race(
+    async ({ page, first, names }) => {
+      assert.deepEqual(await names(), ["theirs"]);
+      assert.equal(await first.locator('[aria-pressed="true"] .name').textContent(), "How far apart are they?");
+      await page.evaluate(() => (location.hash = "#fastest?question=nothing&kind=none&show=__proto__&threads=2"));
+      await until(async () => (await names()).length === 3, "the first question again");
+    },
+    `#fastest?${new URLSearchParams({ question: "How far apart are they?", kind: "cube", show: "libraries alone" })}`,
+  ));
+
+test("a matrix shows who leads, and what is equal", () =>
+  on_race(async ({ page }) => {
+    const cells = page.locator("#raced-fastest .matrix td:not(.none)");
+    const seen = await cells.evaluateAll((all) => all.filter((each) => each.textContent).map((each) => [each.className, each.textContent]));
+    assert.deepEqual(seen, [
+      ["ours", "3 2.8 to 3.2mine / theirs"],
+      ["ours", "5 4.8 to 5.2mine / theirs"],
+      ["equal", "= 1.01 0.9 to 1.1mine / theirs"],
+      ["alone", "no library is rightmine"],
+    ]);
+  }));
 
 test("a departure leads to its pair, which is drawn", () =>
   on_page(async (page) => {
@@ -209,7 +302,7 @@ test("a scene plays, steps, and shows where two algorithms differ", () =>
     assert.match(await scene.textContent(), /certified and gjk differ on 1 of them/);
     await scene.getByLabel("Body").fill("1");
     await scene.getByLabel("Body").press("Enter");
-    assert.match(await scene.locator(".pairs-of-frame").textContent(), /Body 1 has 1 pairs/);
+    assert.match(await scene.locator(".pairs-of-frame").textContent(), /Body 1 has 1 pair /);
     const boxes = page.locator("#boxes-alone-playback");
     await boxes.getByText("Open the scene").click();
     await boxes.locator("canvas").waitFor();
@@ -270,16 +363,16 @@ test("what touches fixed bodies alone is not coloured, unless that is asked for"
     const picture = () => scene.locator("canvas").screenshot();
     const points = () => scene.locator("canvas").evaluate((canvas) => canvas.width / canvas.clientWidth);
     await until(async () => (await points()) === 2, "a fine picture");
-    assert.match(await scene.textContent(), /Red and dotted: it overlaps a body that is not fixed/);
+    assert.match(await scene.textContent(), /Red, dotted: touches or overlaps a body that is not fixed/);
     const without = await picture();
     await scene.getByLabel("contacts with fixed bodies").check();
     await until(async () => !(await picture()).equals(without), "a contact");
-    assert.match(await scene.textContent(), /Red and dotted: it overlaps another body/);
+    assert.match(await scene.textContent(), /Red, dotted: touches or overlaps another body/);
     await scene.getByLabel("contacts with fixed bodies").uncheck();
     await until(async () => (await picture()).equals(without), "no contact");
     await scene.getByLabel("Colours").selectOption("red, green, blue");
     await until(async () => !(await picture()).equals(without), "other colours");
-    assert.match(await scene.textContent(), /Blue and dotted: it overlaps a body that is not fixed/);
+    assert.match(await scene.textContent(), /Blue, dotted: touches or overlaps a body that is not fixed/);
   }));
 
 test("answers that differ within the resolution are not counted as differing", () =>
@@ -288,7 +381,7 @@ test("answers that differ within the resolution are not counted as differing", (
     await scene.getByText("Open the scene").click();
     await scene.locator("canvas").waitFor();
     const text = await scene.textContent();
-    assert.match(text, /certified and gjk differ on 0 of them\. On 1 their .* within the resolution/);
+    assert.match(text, /certified and gjk differ on 0 of them\. On 1 they differ within the resolution/);
     assert.equal(await scene.locator("tr.pickable").count(), 0);
     await scene.getByLabel("list pairs within the resolution").check();
     assert.equal(await scene.locator("tr.pickable").count(), 1);
@@ -342,13 +435,17 @@ test("on a phone the switches are folded, and the lines have their names", () =>
     async (page) => {
       const curves = page.locator("#made-curves");
       assert.equal(await curves.getByLabel("their-tree").isVisible(), false);
-      for (const name of ["tree", "their-tree"]) {
-        const box = await curves.locator("svg text", { hasText: new RegExp(`^${name}$`) }).boundingBox();
-        assert.ok(box.x + box.width <= 390, `${name} ends at ${box.x + box.width}`);
+      const race = page.locator("#fastest .race");
+      for (const [part, name] of [[curves, "tree"], [curves, "their"], [race, "tree"], [race, "their-tree"]]) {
+        const box = await part.locator("svg text", { hasText: new RegExp(`^${name}$`) }).boundingBox();
+        assert.ok(box.x >= 0 && box.x + box.width <= 390, `${name} is at ${box.x} to ${box.x + box.width}`);
       }
-      await curves.getByText("choose among 2").click();
-      await curves.getByLabel("their-tree").uncheck();
-      assert.equal(await curves.locator('g[aria-label="line"] path').count(), 1);
+      assert.equal(await page.locator("#fastest").getByLabel("Show").isVisible(), false);
+      await page.locator("#fastest").getByText("Filters").click();
+      await page.locator("#fastest").getByLabel("Show").selectOption("ours alone");
+      assert.equal(await race.locator('g[aria-label="dot"] circle').count(), 1);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(wide <= 390, `the page is ${wide} wide`);
     },
     "",
     { viewport: { width: 390, height: 800 } },
@@ -359,7 +456,7 @@ test("columns that say nothing are left out, until the file is shown as it stand
     const grid = page.locator("#made-times");
     const columns = () => grid.locator("th[data-column]").evaluateAll((heads) => heads.map((head) => head.dataset.column));
     assert.deepEqual(await columns(), [
-      "bodies", "algorithm", "origin", "seconds", "seconds_low", "seconds_high", "scene_hash", "update", "find_pairs",
+      "bodies", "algorithm", "origin", "seconds", "seconds_low", "seconds_high", "update", "find_pairs",
     ]);
     assert.match(await grid.textContent(), /The same in all rows: scene grid, threads 1, .*Empty in all rows: task, pair kind/);
     const low = grid.locator('tbody tr').first().locator("td").nth(4);

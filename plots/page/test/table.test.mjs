@@ -111,6 +111,46 @@ test("a pair is one entry, with its wrong answers first", async () => {
   assert.deepEqual(pairs[0].answers.map(({ algorithm }) => algorithm), ["gjk", "mpr", "sat"]);
   assert.equal(
     pair_text(pairs[0]),
-    "a thin gap: separated by 1.00e−9 m; gjk says overlapping; mpr is wrong in its numbers (approximate by design)",
+    "a thin gap: separated by 1 nm; gjk says overlapping; mpr is wrong in its numbers (approximate by design)",
   );
+});
+
+test("leads are those of the summary: suspect or too few rounds are unclear, whole scenes come first", async () => {
+  const { inputs_of, leads_text, is_too_noisy, standings } = await sources("tables/contest.ts");
+  const header = "scene,bodies,threads,task,pair_kind,";
+  const sets = ["grid,10,1,,,", "grid,20,1,,,", "home,9,1,,,", "home,9,1,intersect,cube,"];
+  const rows = {
+    "times.csv":
+      `${header}algorithm,origin,seconds,seconds_low,seconds_high,samples,noisy\n` +
+      sets.map((set) => `${set}mine,ours,2,1.9,2.1,6,4\n${set}theirs,peer,4,,,6,3\n`).join(""),
+    "ratios.csv":
+      `${header}algorithm,canary,ratio,ratio_low,ratio_high,suspect\n` +
+      `${sets[0]}theirs,0,3,2.9,3.1,0\n${sets[1]}theirs,0,3,2.9,3.1,1\n${sets[1]}twin,1,1,1,1,1\n`,
+    "broad_best.csv":
+      `${header}ours,peer,peer_ratio,peer_ratio_low,peer_ratio_high\n` +
+      `${sets[0]}mine,theirs,3,2.9,3.1\n${sets[1]}mine,theirs,3,2.9,3.1\n${sets[2]}mine,theirs,2,,\n`,
+    "narrow_best.csv":
+      `${header}ours,right_peer,right_peer_ratio,right_peer_ratio_low,right_peer_ratio_high\n${sets[3]}mine,theirs,0.5,0.4,0.6\n`,
+  };
+  const folder = {
+    has: (file) => file in rows,
+    rows: (file) => new Table(rows[file] ?? "").rows,
+  };
+  const inputs = inputs_of(folder);
+  assert.deepEqual(
+    inputs.map(({ line, name, lead, ratio }) => [line, name, lead, ratio]),
+    [
+      ["home", "Which boxes overlap", "unclear", NaN],
+      ["home", "Do two bodies touch, cube", "libraries", 0.5],
+      ["Which boxes overlap?", "10", "ours", 3],
+      ["Which boxes overlap?", "20", "unclear", NaN],
+    ],
+  );
+  assert.equal(leads_text(inputs), "ours faster in 1 of 4, libraries in 1, unclear in 2");
+  assert.equal(is_too_noisy(inputs), true);
+  // The time over that of the baseline in the same rounds, where it is known: three, and not two.
+  const [, theirs] = inputs[2].entries;
+  assert.deepEqual([theirs.relative, theirs.low, theirs.high], [3, 2.9, 3.1]);
+  const [first, second] = standings(inputs[0].entries);
+  assert.deepEqual([first.algorithm, first.relative, second.relative], ["mine", 1, 2]);
 });

@@ -32,9 +32,9 @@ async function play_two(page) {
 
 // A view is an element of the page, or its upper part, after what a reader does to see it.
 const views = [
-  { name: "summary", element: "#summary", height: 395 },
-  { name: "curves", element: "#reference-curves figure" },
-  { name: "winners", element: "#reference-fastest figure", height: 420 },
+  { name: "first_screen", element: "#fastest", height: 860, width: 1240 },
+  { name: "curves", element: "#reference-curves .panels" },
+  { name: "winners", element: "#reference-fastest", height: 560 },
   { name: "phases", element: "#reference-phases figure" },
   { name: "trade", element: "#grid-chart figure" },
   { name: "accuracy", element: "#reference-answers", height: 420 },
@@ -42,8 +42,9 @@ const views = [
   { name: "pair", element: "details.pair[open]", height: 560, act: open_pair },
   { name: "playback", element: "#rock-pile-playback .player", height: 540, act: (page) => play(page, "rock-pile", 8) },
   { name: "comparison", element: "#comparison-ratios figure", height: 460 },
-  { name: "curves_dark", element: "#reference-curves figure", dark: true },
-  { name: "playback_dark", element: "#rock-pile-playback .player", height: 540, dark: true, act: play_two },
+  { name: "curves_dark", element: "#reference-curves .panels", dark: true },
+  { name: "phone", element: "#fastest", height: 1300, width: 390 },
+  { name: "playback_dark", element: "#rock-pile-playback .player", height: 440, dark: true, act: play_two },
 ];
 
 await mkdir(folder, { recursive: true });
@@ -68,9 +69,9 @@ async function smaller(screenshot) {
 }
 
 let bytes_of_all = 0;
-for (const { name, element, height = Infinity, dark = false, act } of views) {
+for (const { name, element, width = 1040, height = Infinity, dark = false, act } of views) {
   const { page, complaints } = await open(browser, report, "", {
-    viewport: { width: 1040, height: 900 },
+    viewport: { width, height: 900 },
     colorScheme: dark ? "dark" : "light",
   });
   await act?.(page);

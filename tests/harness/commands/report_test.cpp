@@ -94,6 +94,7 @@ TEST_F(Report, TakesItsOptions) {
   EXPECT_EQ(played["structures"][0]["broad"], "kd-tree");
   EXPECT_EQ(made["origins"]["bullet-sat"].is_null(), false);
   EXPECT_EQ(made["origins"]["sat"], "ours");
+  EXPECT_THAT(made["approximate"].get<std::vector<std::string>>(), testing::Contains("sat-faces"));
   EXPECT_THAT(std::string(made["made"]["date"]), HasSubstr(" UTC"));
 }
 

@@ -24,6 +24,13 @@ export function answer_for(prefix: string, show: (rest: string) => Element | nul
   shown_by.set(prefix, show);
 }
 
+const restored_by = new Map<string, (state: URLSearchParams) => void>();
+
+// An address "#anchor?name=value" has the state of a part.
+export function restore_by(anchor: string, restore: (state: URLSearchParams) => void): void {
+  restored_by.set(anchor, restore);
+}
+
 // This is the element that an address means. It is drawn if it was not.
 export function element_of(anchor: string): Element | null {
   const present = document.getElementById(anchor);
@@ -48,6 +55,9 @@ function reveal(element: Element): void {
 
 export function show_address(): void {
   let anchor = location.hash.slice(1);
+  const mark = anchor.indexOf("?");
+  const restore = mark < 0 ? undefined : restored_by.get(anchor.slice(0, mark));
+  if (restore) return restore(new URLSearchParams(anchor.slice(mark + 1)));
   try {
     anchor = decodeURIComponent(anchor);
   } catch {

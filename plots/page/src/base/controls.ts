@@ -71,8 +71,7 @@ export function checkbox(
 export const controls = (...children: (Node | null)[]): HTMLElement =>
   make("div", { class: "controls" }, ...children);
 
-// Each algorithm has a switch. Two buttons switch all of them on, or none. Many switches are folded where the screen is
-// narrow, since they would fill it.
+// Each algorithm has a switch. Two buttons switch all of them on, or none. They are folded, since they would fill a screen.
 export function switches(
   legend: string,
   names: string[],
@@ -94,16 +93,18 @@ export function switches(
     for (const box of boxes) box.set(on);
     changed();
   };
-  const fieldset = make(
-    "fieldset",
+  return make(
+    "details",
     {},
-    make("legend", {}, legend),
-    button("all", () => set_all(true), `${legend}: all`),
-    button("none", () => set_all(false), `${legend}: none`),
-    ...boxes.map((box) => box.element),
+    make("summary", {}, `${legend}: choose among ${names.length}`),
+    make(
+      "fieldset",
+      { "aria-label": legend },
+      button("all", () => set_all(true), `${legend}: all`),
+      button("none", () => set_all(false), `${legend}: none`),
+      ...boxes.map((box) => box.element),
+    ),
   );
-  if (innerWidth >= 700) return fieldset;
-  return make("details", {}, make("summary", {}, `${legend}: choose among ${names.length}`), fieldset);
 }
 
 // The chart shows what is chosen, and the first to begin with.

@@ -14,6 +14,19 @@ export function time_text(seconds: number): string {
   return `${number_text(seconds / size)} ${unit}`;
 }
 
+const length_units: [number, string][] = [
+  [1, "m"],
+  [1e-3, "mm"],
+  [1e-6, "µm"],
+  [1e-9, "nm"],
+];
+
+// A length has three digits and a unit. Less than a nanometre is in metres.
+export function length_text(metres: number): string {
+  const [size, unit] = length_units.find(([least]) => Math.abs(metres) >= least) ?? [1, "m"];
+  return `${number_text(metres / size)} ${unit}`;
+}
+
 const three_digits = new Intl.NumberFormat("en", { maximumSignificantDigits: 3 });
 
 export function number_text(value: number): string {
@@ -23,6 +36,10 @@ export function number_text(value: number): string {
   if (value !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replaceAll("-", "−");
   return three_digits.format(value).replaceAll("-", "−");
 }
+
+// "1 frame", "2 frames".
+export const counted = (count: number, what: string, plural = `${what}s`): string =>
+  `${count_text(count)} ${count === 1 ? what : plural}`;
 
 export const count_text = (value: number): string => value.toLocaleString("en");
 

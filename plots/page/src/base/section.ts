@@ -8,6 +8,11 @@ export function section(title: string, ...children: Child[]): HTMLElement {
   return titled("h2", fresh_anchor(title), title, children);
 }
 
+// The anchor is shorter than the title.
+export function section_at(anchor: string, title: string, ...children: Child[]): HTMLElement {
+  return titled("h2", fresh_anchor(anchor), title, children);
+}
+
 export function part(id: string, title: string, ...children: Child[]): HTMLElement {
   return titled("h3", id, title, children);
 }

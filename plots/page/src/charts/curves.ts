@@ -1,13 +1,15 @@
-// The chart shows time against the number of bodies, for sets that differ in that number alone.
+// Time against the number of bodies: a small chart for each scene, all with the same axis of time. Ours are grey, and the
+// best of them is black; the best of each library has the library's colour.
 import * as Plot from "@observablehq/plot";
 import { choice, controls, switches } from "../base/controls";
-import { make } from "../base/dom";
+import { make, quiet } from "../base/dom";
 import { count_text, time_interval, time_text } from "../base/numbers";
 import { part } from "../base/section";
+import { is_library, is_ours, library_of } from "../tables/contest";
 import type { Folder } from "../tables/folder";
 import { distinct, grouped, set_key, set_text } from "../tables/set";
 import type { Row } from "../tables/table";
-import { apart, colour_scale, on_click, origin_dash, origin_legend, symbol_scale } from "./style";
+import { apart, library_colour, on_click } from "./style";
 
 interface Point {
   row: Row;
@@ -17,6 +19,7 @@ interface Point {
   high: number;
   algorithm: string;
   origin: string;
+  is_right: boolean;
 }
 
 const point_of = (row: Row): Point => ({
@@ -27,78 +30,130 @@ const point_of = (row: Row): Point => ({
   high: row.number("seconds_high"),
   algorithm: row.text("algorithm"),
   origin: row.text("origin"),
+  is_right: row.text("wrong") !== "1" && row.text("failure") === "",
 });
 
-// The chart is as wide as the page, so that the names at the ends of its lines can be seen on a phone too.
-const narrow = (): boolean => innerWidth < 700;
-const margins = { height: 520, marginTop: 20, marginBottom: 40 };
-const size = () =>
-  narrow()
-    ? { ...margins, width: Math.max(320, innerWidth - 44), marginLeft: 52, marginRight: 118, style: "font-size: 9px" }
-    : { ...margins, width: 960, marginLeft: 70, marginRight: 170 };
+// A line with a name at its end.
+interface Curve {
+  name: string;
+  colour: string;
+  points: Point[];
+}
 
-// Curves have their names at their ends. The heights are those of the chart's logarithmic axis.
-function labels(
-  curves: Point[][],
-  domain: [number, number],
-): { bodies: number; seconds: number; name: string }[] {
-  const ends = curves.map((curve) => curve[curve.length - 1]!);
-  const [low, high] = domain.map(Math.log) as [number, number];
-  const room = margins.height - margins.marginTop - margins.marginBottom;
-  const height = (seconds: number): number => ((Math.log(seconds) - low) / (high - low)) * room;
-  const moved = apart(
-    ends.map((end) => height(end.seconds)),
-    12,
-    0,
-    room,
+const by_bodies = (points: Point[]): Point[] => [...points].sort((a, b) => a.bodies - b.bodies);
+
+// The fastest that is right at each number of bodies.
+const best_of = (points: Point[]): Point[] =>
+  by_bodies(
+    [...grouped(points.filter((each) => each.is_right), (each) => String(each.bodies)).values()].map((own) =>
+      own.reduce((best, each) => (each.seconds < best.seconds ? each : best)),
+    ),
   );
-  return ends.map((end, i) => ({
-    bodies: end.bodies,
+
+function best_curves(points: Point[]): Curve[] {
+  const libraries = grouped(
+    points.filter((each) => is_library(each.origin)),
+    (each) => library_of(each.algorithm),
+  );
+  const ours = best_of(points.filter((each) => is_ours(each.origin)));
+  return [
+    ...[...libraries].map(([name, own]) => ({ name, colour: library_colour(name), points: best_of(own) })),
+    { name: ours[ours.length - 1]?.algorithm ?? "", colour: "var(--ink)", points: ours },
+  ].filter((curve) => curve.points.length > 0);
+}
+
+const panel_height = 300;
+const margins = { marginTop: 12, marginBottom: 34, marginLeft: 48, marginRight: 104 };
+
+// Names stand at the ends of their lines. The heights are those of the chart's logarithmic axis.
+function labels(curves: Curve[], domain: [number, number]): (Curve & { bodies: number; seconds: number })[] {
+  const [low, high] = domain.map(Math.log) as [number, number];
+  const room = panel_height - margins.marginTop - margins.marginBottom;
+  const ends = curves.map(({ points }) => points[points.length - 1]!);
+  const heights = ends.map(({ seconds }) => ((Math.log(seconds) - low) / (high - low)) * room);
+  const moved = [...heights];
+  // Only names that begin at the same number of bodies can cover each other.
+  for (const places of grouped(ends.keys(), (i) => String(ends[i]!.bodies)).values()) {
+    const free = apart(places.map((i) => heights[i]!), 13, 0, room);
+    places.forEach((i, k) => (moved[i] = free[k]!));
+  }
+  return curves.map((curve, i) => ({
+    ...curve,
+    bodies: ends[i]!.bodies,
     seconds: Math.exp(low + (moved[i]! / room) * (high - low)),
-    name: end.algorithm,
   }));
 }
 
-function chart_of(points: Point[], all_names: string[], title: string): Element {
-  const curves = [...grouped(points, (each) => each.algorithm).values()];
-  const with_interval = points.filter((each) => each.low > 0 && Number.isFinite(each.high));
-  const times = [
-    ...points.map((each) => each.seconds),
-    ...with_interval.flatMap((each) => [each.low, each.high]),
-  ];
-  const least = times.reduce((a, b) => Math.min(a, b), Infinity);
-  const most = times.reduce((a, b) => Math.max(a, b), -Infinity);
-  const domain: [number, number] = points.length > 0 ? [least / 1.1, most * 1.1] : [1e-6, 1];
+const decades = ([low, high]: [number, number]): number[] =>
+  Array.from({ length: 16 }, (_, i) => 10 ** (i - 10)).filter((each) => each >= low && each <= high);
+
+function panel(points: Point[], title: string, domain: [number, number], width: number): Element {
+  const curves = best_curves(points);
+  const quiet_lines = [...grouped(points, (each) => each.algorithm).values()].map(by_bodies);
+  const counts = distinct(points.map((each) => String(each.bodies))).map(Number).sort((a, b) => a - b);
+  const bests = curves.flatMap(({ points, colour }) => points.map((point) => ({ ...point, colour })));
   return Plot.plot({
-    ...size(),
+    width,
+    height: panel_height,
+    ...margins,
     ariaLabel: `time against the number of bodies: ${title}`,
-    x: { type: "log", label: "bodies", grid: true, tickFormat: count_text },
-    y: { type: "log", label: "time", tickFormat: time_text, grid: true, domain },
-    color: colour_scale(all_names),
-    symbol: symbol_scale,
+    x: {
+      type: "log",
+      label: null,
+      ticks: counts.filter((_, i) => counts.length <= 4 || i % Math.ceil(counts.length / 4) === 0),
+      tickFormat: count_text,
+      tickSize: 3,
+    },
+    y: { type: "log", label: null, tickFormat: time_text, ticks: decades(domain), tickSize: 0, grid: true, domain },
+    color: { type: "identity" },
     marks: [
-      ...curves.map((curve) =>
-        Plot.line(curve, {
+      ...quiet_lines.map((line) =>
+        Plot.line(line, {
           x: "bodies",
           y: "seconds",
-          stroke: "algorithm",
-          strokeDasharray: origin_dash[curve[0]!.origin] ?? "0",
+          z: null,
+          stroke: (each: Point) => (is_library(each.origin) ? library_colour(each.algorithm) : "var(--quiet)"),
+          strokeOpacity: 0.35,
+          strokeWidth: 1,
+          strokeDasharray: line[0]!.origin === "limit" ? "2 3" : undefined,
+          ariaDescription: "algorithm",
         }),
       ),
-      Plot.ruleX(with_interval, { x: "bodies", y1: "low", y2: "high", stroke: "algorithm" }),
-      Plot.text(labels(curves, domain), {
-        x: "bodies",
-        y: "seconds",
-        text: "name",
-        fill: "name",
-        textAnchor: "start",
-        dx: 10,
-      }),
+      ...curves.map(({ points, colour }) =>
+        Plot.line(points, {
+          x: "bodies",
+          y: "seconds",
+          z: null,
+          stroke: () => colour,
+          strokeWidth: colour === "var(--ink)" ? 2.2 : 1.6,
+          ariaDescription: "best",
+        }),
+      ),
+      Plot.ruleX(
+        bests.filter((each) => each.low > 0 && Number.isFinite(each.high)),
+        { x: "bodies", y1: "low", y2: "high", stroke: "colour", strokeWidth: 1.5 },
+      ),
+      Plot.dot(bests, { x: "bodies", y: "seconds", fill: "colour", r: 2.5, ariaDescription: "best" }),
+      ...labels(curves, domain).map((label) =>
+        Plot.text([label], {
+          x: "bodies",
+          y: "seconds",
+          text: "name",
+          fill: "colour",
+          stroke: "var(--ground)",
+          strokeWidth: 4,
+          fontWeight: label.colour === "var(--ink)" ? "bold" : "normal",
+          fontSize: 11,
+          textAnchor: "start",
+          dx: 8,
+        }),
+      ),
       Plot.dot(points, {
         x: "bodies",
         y: "seconds",
-        stroke: "algorithm",
-        symbol: "origin",
+        r: 4,
+        fill: "transparent",
+        ariaDescription: "points",
         tip: true,
         title: (each: Point) =>
           `${each.algorithm}\n${count_text(each.bodies)} bodies\n${time_text(each.seconds)} ` +
@@ -108,6 +163,27 @@ function chart_of(points: Point[], all_names: string[], title: string): Element 
   });
 }
 
+function panels(points: Point[], pick: (row: Row) => void): HTMLElement[] {
+  const ends = points.flatMap(({ seconds, low, high }) => [seconds, low, high]);
+  const usable = ends.filter((each) => each > 0 && Number.isFinite(each));
+  const domain: [number, number] = [
+    usable.reduce((a, b) => Math.min(a, b), Infinity) / 1.1,
+    usable.reduce((a, b) => Math.max(a, b), 0) * 1.1,
+  ];
+  const scenes = grouped(points, ({ row }) => row.text("scene"));
+  const across = Math.min(3, Math.max(2, scenes.size));
+  const room = Math.min(innerWidth, 1216) - 44;
+  const width = innerWidth < 700 ? room : Math.floor(room / across) - 12;
+  return [...scenes].map(([scene, own]) =>
+    make(
+      "figure",
+      { style: `width: ${width}px` },
+      make("figcaption", {}, scene),
+      on_click<Point>(panel(own, scene, domain, width), (point) => pick(point.row)),
+    ),
+  );
+}
+
 export function time_against_count(folder: Folder, pick: (row: Row) => void): HTMLElement | null {
   const usable = folder
     .rows("times.csv")
@@ -115,25 +191,25 @@ export function time_against_count(folder: Folder, pick: (row: Row) => void): HT
     .filter((row) => row.number("bodies") > 0);
   // A scene's hash differs with its number of bodies.
   const beside_count = ["bodies", "scene_hash"];
-  const sets = [...grouped(usable, (row) => set_key(row, beside_count)).values()].filter(
+  const curves = [...grouped(usable, (row) => set_key(row, beside_count)).values()].filter(
     (rows) => distinct(rows.map((row) => row.text("bodies"))).length > 1,
   );
+  // Sets that differ in the scene stand side by side.
+  const beside_scene = [...beside_count, "scene"];
+  const sets = [...grouped(curves.flat(), (row) => set_key(row, beside_scene)).values()];
   if (sets.length === 0) return null;
-  const titles = sets.map((rows) => set_text(rows[0]!, beside_count));
+  const titles = sets.map((rows) => set_text(rows[0]!, beside_scene) || "all");
   const hidden = new Set<string>();
-  const figure = make("figure", { class: "scroll" });
+  const figures = make("div", { class: "panels" });
   const algorithms = make("div");
 
   function show(place: number): void {
-    const points = sets[place]!.map(point_of).sort((a, b) => a.bodies - b.bodies);
-    const names = distinct(points.map((each) => each.algorithm));
-    const draw = (): void => {
-      const shown = points.filter((each) => !hidden.has(each.algorithm));
-      const chart = chart_of(shown, names, titles[place]!);
-      on_click<Point>(chart, (point) => pick(point.row));
-      figure.replaceChildren(chart);
-    };
-    algorithms.replaceChildren(switches("Algorithms", names, hidden, draw));
+    const points = sets[place]!.map(point_of);
+    const draw = (): void =>
+      figures.replaceChildren(...panels(points.filter((each) => !hidden.has(each.algorithm)), pick));
+    algorithms.replaceChildren(
+      switches("Algorithms", distinct(points.map((each) => each.algorithm)), hidden, draw),
+    );
     draw();
   }
 
@@ -141,9 +217,12 @@ export function time_against_count(folder: Folder, pick: (row: Row) => void): HT
   return part(
     `${folder.anchor}-curves`,
     "Time against the number of bodies",
-    origin_legend(),
-    controls(choice("Set", titles, 0, show)),
+    quiet(
+      "Time up, number of bodies across. Grey: ours. Bold: the best of ours, named at its end. Colours: the best of each " +
+        "library; pale: its other algorithms. Bars: 95 % intervals.",
+    ),
+    sets.length > 1 ? controls(choice("Set", titles, 0, show)) : null,
+    figures,
     algorithms,
-    figure,
   );
 }

@@ -5,7 +5,7 @@ import { quiet } from "../base/dom";
 import { time_text } from "../base/numbers";
 import { part } from "../base/section";
 import type { Folder } from "../tables/folder";
-import { grouped, set_key, set_text } from "../tables/set";
+import { distinct, grouped, set_key, set_text } from "../tables/set";
 import type { Row } from "../tables/table";
 
 const phase_names = ["build", "update", "find_pairs"];
@@ -35,6 +35,10 @@ function bars_of(row: Row): Bar[] {
 
 function chart_of(rows: Row[]): Element {
   const bars = rows.flatMap(bars_of);
+  const shown = distinct(bars.map((bar) => bar.phase));
+  const colours = phase_names
+    .map((name, i): [string, string] => [name.replace("_", " "), phase_colours[i]!])
+    .filter(([name]) => shown.includes(name));
   const order = [...grouped(bars, (bar) => bar.algorithm)]
     .sort(([, a], [, b]) => a[a.length - 1]!.to - b[b.length - 1]!.to)
     .map(([name]) => name);
@@ -46,7 +50,7 @@ function chart_of(rows: Row[]): Element {
     ariaLabel: "phases of a frame",
     x: { label: "time of a frame", tickFormat: time_text, grid: true },
     y: { label: null, domain: order },
-    color: { domain: phase_names.map((name) => name.replace("_", " ")), range: phase_colours, legend: true },
+    color: { domain: colours.map(([name]) => name), range: colours.map(([, colour]) => colour), legend: true },
     marks: [
       Plot.barX(bars, { x1: "from", x2: "to", y: "algorithm", fill: "phase", inset: 1 }),
       // A bar has its phase in letters where it is wide enough for them.
@@ -81,7 +85,7 @@ export function phases(folder: Folder): HTMLElement | null {
   return part(
     `${folder.anchor}-phases`,
     "Phases of a frame",
-    quiet("Medians of the phases. A structure that is updated is built once, which is not drawn."),
+    quiet("Medians of the phases. Where a structure is updated, its one build is left out."),
     ...chosen_chart(
       "Set",
       sets.map((set) => set_text(set[0]!)),

@@ -121,8 +121,8 @@ export function samples_of(folder: Folder, cell: Row): HTMLElement {
     {},
     heading,
     quiet(
-      `${samples.length} samples, of which ${disturbed.length} were disturbed: these are crosses. ` +
-        "The dashed line is the median without them, the band its 95 % interval.",
+      `${samples.length} samples, of which ${disturbed.length} were disturbed (crosses) and dropped. ` +
+        "Dashed: the median. Band: its 95 % interval.",
     ),
     make("figure", { class: "scroll" }, chart),
   );

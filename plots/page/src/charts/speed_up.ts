@@ -23,7 +23,7 @@ const bar_of = (row: Row): Bar => ({
 });
 
 function chart_of(rows: Row[]): Element {
-  const bars = rows.map(bar_of).filter((bar) => Number.isFinite(bar.speed_up));
+  const bars = rows.filter((row) => row.text("threads") !== row.text("base_threads")).map(bar_of).filter((bar) => Number.isFinite(bar.speed_up));
   bars.sort((a, b) => b.speed_up - a.speed_up);
   return Plot.plot({
     width: 960,
@@ -59,7 +59,7 @@ export function speed_up(folder: Folder): HTMLElement | null {
   return part(
     `${folder.anchor}-threads`,
     "Speed-up with threads",
-    quiet("Right of the dashed line more threads are faster. Bars are 95 % intervals."),
+    quiet("Right of the dashed line more threads are faster. Lines: 95 % intervals."),
     ...chosen_chart(
       "Set",
       sets.map((set) => set_text(set[0]!, ["threads"])),

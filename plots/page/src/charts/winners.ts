@@ -1,80 +1,117 @@
-// The heat map has a cell for each set. It shows the fastest algorithm, and by how much it leads.
-import * as Plot from "@observablehq/plot";
+// The matrix has the best library against the best of ours: kinds of pairs down and questions across, or scenes down and
+// numbers of bodies across.
 import { make, quiet } from "../base/dom";
-import { interval_text, number_text } from "../base/numbers";
+import { count_text, interval_text, number_of, number_text } from "../base/numbers";
 import { part } from "../base/section";
+import { inputs_of, type Input, type Lead } from "../tables/contest";
 import type { Folder } from "../tables/folder";
-import { distinct, grouped, set_text } from "../tables/set";
-import type { Row } from "../tables/table";
+import { distinct, grouped } from "../tables/set";
+import { has_ratio, words_of } from "./strips";
 
-interface Cell {
-  across: string;
-  down: string;
-  winner: string;
-  lead: number;
-  tip: string;
+const classes: Record<Lead, string> = {
+  ours: "ours",
+  libraries: "library",
+  equal: "equal",
+  unclear: "equal",
+  "no library is right": "alone",
+  "none of ours is right": "library",
+  "no library": "none",
+};
+
+// Two of ours that the interval of their ratio does not tell apart are equal.
+function ours_of({ ours, library, first }: Input): string {
+  if (!first || first.text("winner") !== ours || first.number("ratio_low") > 1) return ours;
+  const next = first.text("runner_up");
+  return next && next !== library ? `${ours} = ${next}` : ours;
 }
 
-function cell_of(row: Row): Cell {
-  const winner = row.text("winner"),
-    lead = row.number("ratio");
-  const interval = interval_text(row.number("ratio_low"), row.number("ratio_high"));
-  const suspect =
-    row.text("suspect") === "1" ? "\nsuspect: the baseline differs from its twin" : "";
-  return {
-    across: row.text("pair_kind") || row.text("bodies") || "all",
-    down: set_text(row, row.text("pair_kind") ? ["pair_kind"] : ["bodies"]),
-    winner,
-    lead: lead > 0 && Number.isFinite(lead) ? lead : 1,
-    tip: `${winner}\nis ${number_text(lead)} times as fast as ${row.text("runner_up")}\n(${interval})${suspect}`,
-  };
-}
-
-function heat_map(rows: Row[]): Element {
-  const cells = rows.map(cell_of);
-  const across = distinct(cells.map((each) => each.across)).sort((a, b) =>
-    a.localeCompare(b, "en", { numeric: true }),
+function cell(inputs: Input[]): HTMLElement {
+  const [input] = inputs;
+  if (!input) return make("td", { class: "none" });
+  // A lead of sixteen has the full colour.
+  const strength = has_ratio(input) ? Math.min(1, Math.abs(Math.log(input.ratio)) / Math.log(16)) : 0;
+  // Most have doubles, which goes without saying.
+  const names = [ours_of(input), input.library].filter(Boolean).join(" / ").replaceAll(" double", "");
+  return make(
+    "td",
+    {
+      class: classes[input.lead],
+      style: `--strength: ${Math.round(12 + 33 * strength)}%`,
+      title: inputs.map((each) => `${each.name}: ${words_of(each)}`).join("\n"),
+    },
+    make("b", {}, has_ratio(input) ? `${input.lead === "equal" ? "= " : ""}${number_text(input.ratio)}` : input.lead),
+    has_ratio(input) ? make("small", {}, ` ${interval_text(input.low, input.high)}`) : null,
+    make("small", { class: "names" }, names),
+    inputs.length > 1 ? make("small", {}, ` and ${inputs.length - 1} more`) : null,
   );
-  const down = distinct(cells.map((each) => each.down));
-  return Plot.plot({
-    width: Math.max(700, 400 + across.length * 140),
-    height: 60 + down.length * 36,
-    marginLeft: 400,
-    ariaLabel: "the fastest algorithm of each set",
-    x: { domain: across, label: null, axis: "top" },
-    y: { domain: down, label: null },
-    // The scale ends at a lead of eight, since more is dark all the same.
-    color: { type: "log", scheme: "blues", domain: [0.7, 8], clamp: true },
-    marks: [
-      Plot.cell(cells, { x: "across", y: "down", fill: "lead", inset: 1 }),
-      Plot.text(cells, {
-        x: "across",
-        y: "down",
-        text: (each: Cell) => `${each.winner}\n× ${number_text(each.lead)}`,
-        fontSize: 10,
-        // Both letters have a contrast of at least 4.5 to 1 at a lead of four.
-        fill: (each: Cell) => (each.lead > 4 ? "white" : "black"),
-      }),
-      Plot.tip(cells, Plot.pointer({ x: "across", y: "down", title: "tip" })),
-    ],
-  });
 }
+
+interface Shape {
+  down: (input: Input) => string[];
+  across: (input: Input) => string;
+}
+
+// Columns of numbers go from the least; others stay in their order.
+const by_number = (a: string, b: string): number =>
+  (number_of(a.replaceAll(",", "").split(" ")[0]!) || 0) - (number_of(b.replaceAll(",", "").split(" ")[0]!) || 0);
+
+function matrix(inputs: Input[], { down, across }: Shape): HTMLElement {
+  const columns = distinct(inputs.map(across)).sort(by_number);
+  const parts = inputs.map(down);
+  const telling = parts[0]!.map((_, i) => distinct(parts.map((each) => each[i]!)).length > 1);
+  const title = (input: Input): string =>
+    down(input).filter((text, i) => text !== "" && (i === 0 || telling[i])).join(", ");
+  const rows = [...grouped(inputs, title)];
+  return make(
+    "div",
+    { class: "scroll matrices", tabindex: 0, role: "region", "aria-label": "ours against libraries" },
+    make(
+      "table",
+      { class: "matrix" },
+      make("thead", {}, make("tr", {}, make("td"), ...columns.map((name) => make("th", { scope: "col" }, name)))),
+      make(
+        "tbody",
+        {},
+        ...rows.map(([name, own]) =>
+          make(
+            "tr",
+            {},
+            make("th", { scope: "row" }, name),
+            ...columns.map((column) => cell(own.filter((input) => across(input) === column))),
+          ),
+        ),
+      ),
+    ),
+  );
+}
+
+const words_of_threads = ({ threads }: Input): string =>
+  threads === "1" ? "1 thread" : threads ? `${threads} threads` : "";
 
 export function winners(folder: Folder): HTMLElement | null {
-  if (!folder.has("winners.csv")) return null;
-  // Broad phases stand by their numbers of bodies, narrow phases by the kinds of shapes.
-  const kinds = grouped(folder.rows("winners.csv"), (row) =>
-    row.text("pair_kind") ? "kinds" : "bodies",
-  );
+  const compared = inputs_of(folder).filter(({ lead }) => lead !== "no library");
+  if (compared.length === 0) return null;
+  const with_kinds = ({ kind, entries }: Input): boolean => entries[0]!.row.text("task") !== "" && kind !== "";
+  const is_cell = ({ entries }: Input): boolean => entries[0]!.row.text("cell") !== "";
+  const tables = grouped(compared, (input) => (with_kinds(input) ? "kinds" : is_cell(input) ? "cells" : "bodies"));
+  const shapes: Record<string, Shape> = {
+    kinds: {
+      down: (input) => [input.kind, input.scene, words_of_threads(input)],
+      across: ({ question }) => question,
+    },
+    cells: { down: ({ scene }) => [scene], across: ({ kind }) => kind },
+    bodies: {
+      down: (input) => [input.scene, input.kind, words_of_threads(input)],
+      across: ({ bodies }) => `${count_text(Number(bodies))} bodies`,
+    },
+  };
   return part(
     `${folder.anchor}-fastest`,
-    "The fastest of each set",
+    "The fastest of ours against the fastest library",
     quiet(
-      "A cell names the fastest that answers right, and how many times the next one's time is its own. Darker is a greater lead.",
+      "Time of the fastest correct library over that of the fastest correct algorithm of ours, with its 95 % interval. " +
+        "Blue: ours is faster. Orange: a library is. Grey: equal, or unclear. Outlined: no library is right.",
     ),
-    ...[...kinds.values()].map((rows) => make("figure", { class: "scroll" }, heat_map(rows))),
-    folder.grid("winners.csv", {
-      lead: ["scene", "bodies", "task", "pair_kind", "winner", "runner_up", "ratio"],
-    }),
+    ...[...tables].map(([shape, inputs]) => matrix(inputs, shapes[shape]!)),
   );
 }

@@ -1,7 +1,7 @@
 // The list has all pairs of a folder. Each is drawn when it is opened.
 import { make, quiet } from "../base/dom";
 import type { Folder } from "../tables/folder";
-import { pair_text } from "../tables/pairs";
+import { is_wrong, pair_text } from "../tables/pairs";
 import { pair_view, type PairView } from "./pair_view";
 
 export function case_list(folder: Folder): HTMLElement {
@@ -23,7 +23,7 @@ export function case_list(folder: Folder): HTMLElement {
       make(
         "summary",
         {},
-        `${pair_text(pair)} (${pair.about}) `,
+        pair.answers.some(is_wrong) ? `${pair_text(pair)} ` : `${pair_text(pair)} (${pair.about}) `,
         make("a", { href: `#${anchor}`, class: "link", "aria-label": `link to ${pair.id}` }, "¶"),
       ),
       place,

@@ -1,5 +1,6 @@
 // The table has the pairs of a body in a frame, or those about which two algorithms differ.
 import { make, quiet } from "../base/dom";
+import { counted } from "../base/numbers";
 import { grid } from "../tables/grid";
 import { Table } from "../tables/table";
 import { verdict_names, type Recorded } from "./recorded";
@@ -41,7 +42,7 @@ export function pair_table(
     { class: "pairs-of-frame" },
     quiet(differ_text(recorded, asked, differing.size, within.size)),
     selected >= 0
-      ? make("p", {}, `Body ${selected} has ${rows.length} pairs whose boxes overlap.`)
+      ? make("p", {}, `Body ${selected} has ${counted(rows.length, "pair")} whose boxes overlap.`)
       : null,
     rows.length > 0
       ? grid(Table.of(columns, rows), {
@@ -59,12 +60,12 @@ function differ_text(
   within: number,
 ): string {
   const pairs = Math.floor(recorded.pairs(frame).bodies.length / 2);
-  const all = `${pairs} pairs of boxes overlap in this frame.`;
+  const all = `${counted(pairs, "pair")} of boxes overlap in this frame.`;
   if (recorded.algorithms.length < 2) return all;
   const names = `${recorded.algorithms[left]} and ${recorded.algorithms[right]}`;
   const near =
     within > 0
-      ? ` On ${within} their answers differ within the resolution of double precision, 2.9e-14 of the pair, where both are right.`
+      ? ` On ${within} they differ within the resolution of double precision (2.9e-14 of the pair), where both are right.`
       : "";
   return `${all} ${names} differ on ${differ} of them.${near}`;
 }

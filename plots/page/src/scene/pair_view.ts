@@ -3,7 +3,7 @@ import * as THREE from "three";
 import type { AnswerView, CaseView } from "../bundle";
 import { button, choice, command_line, controls, copy_button } from "../base/controls";
 import { make, quiet } from "../base/dom";
-import { number_text } from "../base/numbers";
+import { length_text, number_text } from "../base/numbers";
 import { grid } from "../tables/grid";
 import { is_wrong } from "../tables/pairs";
 import { Table } from "../tables/table";
@@ -40,7 +40,7 @@ export function pair_view(pair: CaseView): PairView {
 function truth_text({ truth }: CaseView): string {
   if (truth.lower === null || truth.upper === null) return `The bodies are ${truth.answer}.`;
   const ends = `from ${truth.lower} to ${truth.upper}`;
-  return `The bodies are ${truth.answer}: their signed distance is ${number_text((truth.lower + truth.upper) / 2)} m (${ends}).`;
+  return `The bodies are ${truth.answer}: their signed distance is ${length_text((truth.lower + truth.upper) / 2)} (${ends} m).`;
 }
 
 function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
@@ -103,12 +103,10 @@ function drawn(pair: CaseView, stage: Stage): HTMLElement[] {
     ),
     stage.element,
     quiet(
-      "Blue is the first body, orange the second. Green, with balls and full lines, is what is so: the plane that " +
-        "separates them, the point that they share, or the shortest way out, which is the arrow. The green ball around " +
-        "the arrow's foot has the depth as its radius: bodies that move by less overlap still. Red, with cubes and dashes, " +
-        "is what the chosen algorithm says: its witness points and its normal, which is not stretched. " +
-        "Where the bodies are enlarged, what leaves the picture is cut off. " +
-        "Arrow keys turn the view, + and − move it.",
+      "Blue: the first body. Orange: the second. Green, with balls and full lines: the exact answer, which is the plane that " +
+        "separates them, a point that they share, or the shortest way out (the arrow). The green ball has the depth as its " +
+        "radius. Red, with cubes and dashes: what the chosen algorithm says, its witness points and its normal (not stretched). " +
+        "Arrow keys turn the view; + and − zoom.",
     ),
   ];
 }

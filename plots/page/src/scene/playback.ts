@@ -2,7 +2,7 @@
 import type { Recording } from "../bundle";
 import { button } from "../base/controls";
 import { make, quiet } from "../base/dom";
-import { count_text } from "../base/numbers";
+import { counted } from "../base/numbers";
 import { section } from "../base/section";
 import { Slices } from "../base/slices";
 import { player } from "./player";
@@ -44,12 +44,17 @@ export function playback(recording: Recording): HTMLElement {
   }
 
   closed();
-  const bodies = `${count_text(recording.bodies)} ${recording.boxes_only ? "boxes without bodies" : "bodies"}`;
+  const bodies = recording.boxes_only
+    ? counted(recording.bodies, "box", "boxes")
+    : counted(recording.bodies, "body", "bodies");
   const { frames, frames_of_scene } = recording;
-  const all = frames < frames_of_scene ? `the first ${frames} of ${frames_of_scene}` : `${frames}`;
+  const all =
+    frames < frames_of_scene
+      ? `the first ${frames} of ${frames_of_scene} frames`
+      : counted(frames, "frame");
   return section(
     `${recording.name}: playback`,
-    quiet(`${bodies}, ${all} frames, from ${recording.source}, hash ${recording.hash}.`),
+    quiet(`${bodies}, ${all}, from ${recording.source}.`),
     place,
   );
 }

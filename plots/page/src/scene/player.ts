@@ -77,7 +77,7 @@ function controlled(
     view.show(shown);
     slider.value = String(shown.frame);
     slider.setAttribute("aria-valuetext", `frame ${shown.frame}`);
-    where.textContent = `frame ${shown.frame} of 0 to ${recording.frames - 1}, ${number_text(shown.frame * recording.time_step)} s`;
+    where.textContent = `frame ${shown.frame} / ${recording.frames - 1}, ${number_text(shown.frame * recording.time_step)} s`;
   }
 
   // Tables take longer than frames: while it plays they follow four times a second.
@@ -182,8 +182,8 @@ function controlled(
     const [apart, boxes, contact] = palette.words;
     const with_what = shown.with_fixed || !recorded.has_fixed_bodies ? "another body" : "a body that is not fixed";
     legend.textContent =
-      `${apart} and plain: certainly apart. ${boxes} and striped: its box overlaps that of ${with_what}. ` +
-      `${contact} and dotted: it overlaps ${with_what}, or touches it.`;
+      `${contact}, dotted: touches or overlaps ${with_what}. ${boxes}, striped: its box overlaps that of ${with_what}. ` +
+      `${apart}, plain: apart.`;
     view.wear(palette);
   }
   let palette = 0;
@@ -234,9 +234,9 @@ function controlled(
     names,
     stage.element,
     quiet(
-      "Click on a body, or give its number, for its pairs; it has a yellow box. Side by side, boxes in magenta are " +
-        "around bodies about which the algorithms differ. A structure's boxes have a colour for each level. " +
-        "Arrow keys turn the view, + and − move it.",
+      "Click a body, or type its number, to list its pairs; it gets a yellow box. Side by side, magenta boxes mark " +
+        "bodies about which the algorithms differ. A structure's boxes have a colour for each level. " +
+        "Arrow keys turn the view; + and − zoom.",
     ),
     several
       ? checkbox("list pairs within the resolution instead", false, (on) => {

@@ -1,7 +1,7 @@
 // A few sentences say what came out of a results folder.
-import { count_text, interval_text, number_text, time_interval, time_text } from "../base/numbers";
+import { count_text, number_text, time_interval, time_text } from "../base/numbers";
 import type { Folder } from "../tables/folder";
-import { distinct, set_key, set_text } from "../tables/set";
+import { distinct, set_key } from "../tables/set";
 import type { Row } from "../tables/table";
 
 const total = (rows: Row[], column: string): number =>
@@ -10,9 +10,6 @@ const total = (rows: Row[], column: string): number =>
 export function answers(folder: Folder, origins: Record<string, string>): string[] {
   const lines = [
     ...timed(folder),
-    ...fastest(folder.rows("broad_best.csv"), "peer", "peer_ratio", "Broad phases"),
-    ...fastest(folder.rows("narrow_best.csv"), "right_peer", "right_peer_ratio", "Narrow phases"),
-    ...fastest(folder.rows("set_best.csv"), "peer", "ratio", "Cells"),
     ...agreed(folder),
     ...checked(folder, origins),
     ...swept(folder),
@@ -31,25 +28,8 @@ function timed(folder: Folder): string[] {
   const samples = total(times, "samples");
   const disturbed = (100 * total(times, "noisy")) / Math.max(samples, 1);
   return [
-    `${algorithms} algorithms were timed in ${sets} sets: ${count_text(samples)} samples, ` +
-      `of which ${number_text(disturbed)} % were disturbed.`,
-  ];
-}
-
-// The set in the middle of all stands for them: its interval is one that was measured.
-function fastest(rows: Row[], peer: string, ratio: string, what: string): string[] {
-  const usable = rows.filter((row) => row.number(ratio) > 0);
-  usable.sort((a, b) => a.number(ratio) - b.number(ratio));
-  const middle = usable[Math.floor((usable.length - 1) / 2)];
-  if (!middle) return [];
-  const ahead = usable.filter((row) => row.number(`${ratio}_low`) > 1).length;
-  const behind = usable.filter((row) => row.number(`${ratio}_high`) < 1).length;
-  const interval = interval_text(middle.number(`${ratio}_low`), middle.number(`${ratio}_high`));
-  return [
-    `${what}: the fastest of ours is faster than every library that answers right in ${ahead} of ` +
-      `${usable.length} sets, slower in ${behind}, undecided in ${usable.length - ahead - behind}. In the middle set ` +
-      `(${set_text(middle)}) the time of ${middle.text(peer)} is ${number_text(middle.number(ratio))} times that of ` +
-      `${middle.text("ours")} (${interval}).`,
+    `${algorithms} algorithms were timed on ${sets} inputs, in ${count_text(samples)} samples; ` +
+      `${number_text(disturbed)} % of them were dropped because other programs ran.`,
   ];
 }
 
@@ -64,7 +44,7 @@ function agreed(folder: Folder): string[] {
     return [
       `${who} answered ${count_text(total(rows, "queries"))} queries: ` +
         `${count_text(total(rows, "wrong"))} on the wrong side of contact, ` +
-        `${count_text(total(rows, "failed"))} given up, ${count_text(total(rows, "unanswered"))} without an answer.`,
+        `${count_text(total(rows, "failed"))} gave up, ${count_text(total(rows, "unanswered"))} without an answer.`,
     ];
   });
 }

@@ -29,7 +29,7 @@ export function compare(folders: Folder[]): HTMLElement | null {
   return section(
     "Comparison",
     quiet(
-      "Ratios hold within a folder, because machines differ: a ratio is a time over that of the baseline in the same rounds.",
+      "A ratio is a time over that of the baseline in the same rounds. Times of two folders are never divided, because machines differ.",
     ),
     part("comparison-machines", "What differs between the folders", differences(timed)),
     shared.length > 0
@@ -40,7 +40,7 @@ export function compare(folders: Folder[]): HTMLElement | null {
       : make(
           "p",
           {},
-          "The folders have no set in common that has the same scene and the same baseline.",
+          "The folders share no input with the same baseline.",
         ),
   );
 }

@@ -6,11 +6,11 @@ import { folded, section } from "../base/section";
 import type { Folder } from "../tables/folder";
 
 export function files(folder: Folder): HTMLElement | null {
-  const rest = folder.rest();
+  const rest = folder.rest().filter((file) => file !== "machine.csv"); // that is in the last section
   if (rest.length === 0) return null;
   return section(
     `${folder.name}: other tables`,
-    quiet("Every file of the folder that is not shown above, as it stands."),
+    quiet("All other files of the folder."),
     ...rest.map((file) => unfolding(folder, file)),
   );
 }

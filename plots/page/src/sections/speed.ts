@@ -1,8 +1,6 @@
-// This section shows times: curves against count, cells, the winner of each set, phases, speed-up, and the samples of a
-// cell.
+// This section shows times: curves against count, who leads in each set, phases, speed-up, and the samples of a row.
 import { quiet, make } from "../base/dom";
 import { part, section } from "../base/section";
-import { time_in_cells } from "../charts/cells";
 import { time_against_count } from "../charts/curves";
 import { phases } from "../charts/phases";
 import { samples_of } from "../charts/samples";
@@ -23,19 +21,18 @@ export function speed(folder: Folder): HTMLElement | null {
     samples.scrollIntoView({ block: "nearest" });
   };
   const hint = sampled
-    ? " Click on a row or a point, or press Enter on a row, for its samples."
+    ? " Click a row or a point, or press Enter on a row, to see its samples."
     : "";
   return section(
     `${folder.name}: speed`,
     time_against_count(folder, pick),
-    time_in_cells(folder, pick),
     winners(folder),
     phases(folder),
     speed_up(folder),
     part(
       `${folder.anchor}-times-part`,
       "Times of all sets",
-      quiet(`Seconds: medians with 95 % intervals.${hint}`),
+      quiet(`Medians with 95 % intervals.${hint}`),
       samples,
       folder.grid(times, {
         lead: [

@@ -1,30 +1,44 @@
-// The summary says what was measured, where, and what came out.
+// The summary says what came out of each folder. What names the run, and where it was made, is folded at the end of the page.
 import type { Bundle } from "../bundle";
 import { make, quiet } from "../base/dom";
 import { part, section } from "../base/section";
 import type { Folder } from "../tables/folder";
 import { answers } from "./answers";
 
-export function summary(bundle: Bundle, folders: Folder[]): HTMLElement {
-  const { version, commit, tree, date } = bundle.made;
+export const summary = (bundle: Bundle, folders: Folder[]): HTMLElement | null =>
+  folders.length === 0
+    ? null
+    : section(
+        "Summary",
+        ...folders.map((folder) =>
+          part(
+            `${folder.anchor}-overview`,
+            folder.name,
+            make("ul", {}, ...answers(folder, bundle.origins).map((text) => make("li", {}, text))),
+            ...folder.results.notes.map((note) => make("p", { class: "wrong" }, note)),
+          ),
+        ),
+      );
+
+export function about({ made, scenes }: Bundle, folders: Folder[]): HTMLElement {
+  const played = scenes.map((scene): [string, string] => [`${scene.name}, ${scene.source}`, scene.hash]);
   return section(
-    "Summary",
-    ...folders.map((folder) =>
-      part(
-        `${folder.anchor}-overview`,
-        folder.name,
-        make("p", {}, measured(folder)),
-        make("ul", {}, ...answers(folder, bundle.origins).map((text) => make("li", {}, text))),
-        ...folder.results.notes.map((note) => make("p", { class: "wrong" }, note)),
-        hashes(folder),
-        make("details", {}, make("summary", {}, "Machine and build"), folder.grid("machine.csv")),
+    "About this page",
+    make(
+      "details",
+      {},
+      make("summary", {}, "Machines, builds, hashes of scenes, permalinks"),
+      quiet(
+        `Made by Touchstone ${made.version} (${made.commit}, ${made.tree}) on ${made.date}. Every ¶ and row number is a ` +
+          "permalink; #TABLE-row-N-COLUMN is that of one field.",
       ),
-    ),
-    bundle.scenes.length > 0 ? recordings(bundle) : null,
-    quiet(
-      `Made by Touchstone ${version} (${commit}, ${tree}) on ${date}. Sections, tables, rows and pairs can be linked to: ` +
-        "their addresses are behind the signs ¶ and the numbers of rows. The address of a row with - and a " +
-        "column's name behind it is that of one field.",
+      ...folders.flatMap((folder) => [
+        make("h3", {}, folder.name),
+        make("p", {}, measured(folder)),
+        hash_table(`Scenes of ${folder.name}`, folder.scenes()),
+        folder.grid("machine.csv"),
+      ]),
+      hash_table("Scenes to play", played),
     ),
   );
 }
@@ -32,52 +46,36 @@ export function summary(bundle: Bundle, folders: Folder[]): HTMLElement {
 function measured(folder: Folder): string {
   const fact = (name: string): string => folder.fact(name) || "unknown";
   const campaign = folder.fact("campaign");
-  if (!folder.has("machine.csv"))
-    return `In ${folder.results.folder}, which does not say where it was measured.`;
-  const commit = fact("commit").slice(0, 12);
+  const where = `${campaign ? `Campaign ${campaign}, in` : "In"} ${folder.results.folder}`;
+  if (!folder.has("machine.csv")) return `${where}, which does not say where it was measured.`;
   const begun = folder.fact("begun");
-  return (
-    `${campaign ? `Campaign ${campaign}, in` : "In"} ${folder.results.folder}; measured on ${fact("processor")}, ` +
-    `${fact("cores_online")} cores, ${fact("kernel")}, hypervisor ${fact("hypervisor")}; ${fact("compiler")}, ` +
-    `${fact("instructions_in_use")}; source ${commit} (${fact("tree")})${begun ? `; begun on ${begun}` : ""}.`
-  );
+  const facts = [
+    fact("processor"),
+    `${fact("cores_online")} cores`,
+    fact("instructions_in_use"),
+    fact("kernel"),
+    fact("compiler"),
+    `source ${fact("commit").slice(0, 12)} (${fact("tree")})`,
+  ];
+  return `${where}. Measured on ${facts.join(", ")}${begun ? `, on ${begun}` : ""}.`;
 }
 
-function hashes(folder: Folder): HTMLElement | null {
-  const scenes = folder.scenes();
-  if (scenes.length === 0) return null;
-  return hash_table("Hashes of the scenes", scenes);
-}
-
-const recordings = (bundle: Bundle): HTMLElement =>
-  hash_table(
-    "Scenes to play",
-    bundle.scenes.map((scene): [string, string] => [`${scene.name}, ${scene.source}`, scene.hash]),
-  );
-
-const hash_table = (title: string, rows: [string, string][]): HTMLElement =>
-  make(
-    "details",
-    { open: rows.length <= 12 },
-    make("summary", {}, title),
-    make(
-      "div",
-      { class: "scroll", tabindex: 0, role: "region", "aria-label": title },
-      make(
-        "table",
-        {},
+const hash_table = (title: string, rows: [string, string][]): HTMLElement | null =>
+  rows.length === 0
+    ? null
+    : make(
+        "div",
+        { class: "scroll", tabindex: 0, role: "region", "aria-label": title },
         make(
-          "tbody",
+          "table",
           {},
-          ...rows.map(([name, hash]) =>
-            make(
-              "tr",
-              {},
-              make("th", { scope: "row" }, name),
-              make("td", {}, make("code", {}, hash)),
+          make("caption", {}, title),
+          make(
+            "tbody",
+            {},
+            ...rows.map(([name, hash]) =>
+              make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, make("code", {}, hash))),
             ),
           ),
         ),
-      ),
-    ),
-  );
+      );

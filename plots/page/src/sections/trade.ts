@@ -25,7 +25,7 @@ function configuration(folder: Folder, row: Row): HTMLElement {
       ),
     ),
     of_point.length > 0
-      ? quiet("Its errors by the true gap, in parts of the smaller body's size:")
+      ? quiet("Errors by the true gap, as parts of the smaller body's size:")
       : null,
     of_point.length > 0
       ? grid(
@@ -61,9 +61,9 @@ export function trade(folder: Folder): HTMLElement | null {
       `${folder.anchor}-chart`,
       "Time against error",
       quiet(
-        `The error is that of the measure ${measure || "that was asked for"}. Filled diamonds on the line are the front: ` +
-          "nothing is both faster and more right. What stands on the dashed line at the left has no error. " +
-          "Click on a point, or press Enter on a row, for its configuration.",
+        `Error: ${measure || "the measure that was asked for"}. Filled diamonds on the line: no other configuration is both ` +
+          "faster and more accurate. Points on the dashed line have no error. " +
+          "Click a point, or press Enter on a row, to see its configuration.",
       ),
       controls(checkbox("the front alone", false, draw).element),
       figure,

@@ -94,7 +94,7 @@ function departures(folder: Folder): HTMLElement | null {
   return part(
     `${folder.anchor}-wrong`,
     "Departures",
-    quiet("3D goes to the pair, where the page has it."),
+    quiet("3D leads to the pair."),
     folder.grid("departures.csv", {
       lead: ["algorithm", "where", "what"],
       link: (row) => folder.case_of_file(row.text("reproduction")),
@@ -108,7 +108,7 @@ function grades(folder: Folder): HTMLElement | null {
     `${folder.anchor}-grades`,
     "Grades by regime",
     quiet(
-      "Errors are parts of the pair's size, or of its distance where that is greater. 3D goes to a pair that the algorithm gets wrong.",
+      "Errors are parts of the pair's size, or of its distance if that is greater. 3D leads to a pair that the algorithm gets wrong.",
     ),
     ...filtered(
       folder,

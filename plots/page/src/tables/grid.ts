@@ -1,6 +1,6 @@
 // A grid is a table that sorts by its headings and filters by a text. It shows a part of a long table at a time,
-// so that a hundred thousand rows do no harm; the filter looks at all of them. Numbers have three digits, and columns
-// that say nothing are left out, until the reader asks for the file as it stands.
+// so that a hundred thousand rows do no harm; the filter looks at all of them. Numbers have three digits, and hashes and
+// columns that say nothing are left out, until the reader asks for the file as it stands.
 import { answer_for } from "../base/anchors";
 import { button, checkbox, controls } from "../base/controls";
 import { make, quiet } from "../base/dom";
@@ -54,7 +54,9 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
       : [],
   );
   if (constant.size === all_columns.length) constant.clear();
-  const telling = all_columns.filter((column) => !constant.has(column));
+  const is_hash = (column: number): boolean => /(^|_)hash$/.test(table.columns[column]!);
+  const hidden = new Set([...constant, ...(options.file ? all_columns.filter(is_hash) : [])]);
+  const telling = all_columns.filter((column) => !hidden.has(column));
   let as_in_file = false,
     columns = telling;
   const times = new Set(
@@ -94,7 +96,12 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
     draw();
     extend(kept);
   }
-  const same = quiet(same_text(table, constant));
+  const same = quiet(
+    same_text(
+      table,
+      [...constant].filter((column) => !is_hash(column)),
+    ),
+  );
 
   function heading(column: number): HTMLElement {
     const name = table.columns[column]!;
@@ -182,7 +189,7 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
       wanted = filter.value = "";
       draw();
     }
-    if (constant.has(table.columns.indexOf(named![2] ?? ""))) set_whole(true);
+    if (hidden.has(table.columns.indexOf(named![2] ?? ""))) set_whole(true);
     extend(Math.max(shown, rows.indexOf(row) + 1));
     const element = document.getElementById(`${options.anchor}-row-${row.index}`);
     const column = columns.indexOf(table.columns.indexOf(named![2] ?? ""));
@@ -226,10 +233,10 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
   return element;
 }
 
-function same_text(table: Table, constant: Set<number>): string {
+function same_text(table: Table, constant: number[]): string {
   const named = (column: number): string => table.columns[column]!.replaceAll("_", " ");
-  const empty = [...constant].filter((column) => table.field(0, column) === "");
-  const same = [...constant].filter((column) => !empty.includes(column));
+  const empty = constant.filter((column) => table.field(0, column) === "");
+  const same = constant.filter((column) => !empty.includes(column));
   const sentences: string[] = [];
   if (same.length > 0) {
     const texts = same.map((column) => `${named(column)} ${table.field(0, column)}`);

@@ -1,6 +1,6 @@
 // The pairs of bodies of a folder. Each is one entry, however many algorithms got it wrong and however many files list
-// it, and its wrong answers come first.
-import { number_text } from "../base/numbers";
+// it. The wrong come first, among pairs and among the answers of each.
+import { length_text } from "../base/numbers";
 import type { AnswerView, CaseView } from "../bundle";
 import { distinct, grouped } from "./set";
 
@@ -20,7 +20,7 @@ function rank({ grade }: AnswerView): number {
 
 export function pairs_of(cases: CaseView[]): Pair[] {
   const groups = grouped(cases, ({ a, b }) => JSON.stringify([a, b]));
-  return [...groups.values()].map((listed) => {
+  const pairs = [...groups.values()].map((listed) => {
     const [first] = listed as [CaseView, ...CaseView[]];
     const answers = grouped(
       listed.flatMap((each) => each.answers),
@@ -33,6 +33,8 @@ export function pairs_of(cases: CaseView[]): Pair[] {
       answers: [...answers.values()].map((same) => same[0]!).sort((x, y) => rank(x) - rank(y)),
     };
   });
+  const worst = ({ answers: [first] }: Pair): number => (first ? rank(first) : Infinity);
+  return pairs.sort((a, b) => worst(a) - worst(b) || 0);
 }
 
 // These words say what is so, and who says otherwise.
@@ -40,7 +42,7 @@ export function pair_text({ id, truth, answers }: Pair): string {
   const measure =
     truth.lower === null || truth.upper === null || truth.answer === "touching"
       ? ""
-      : ` by ${number_text(Math.abs(truth.lower + truth.upper) / 2)} m`;
+      : ` by ${length_text(Math.abs(truth.lower + truth.upper) / 2)}`;
   const said = ({ grade, answer }: AnswerView): [string, string] => {
     if (grade === "crashed") return ["crashed", "crashed"];
     if (grade === "hung") return ["did not end", "did not end"];
