@@ -251,7 +251,7 @@ test("a matrix shows who leads, and what is equal", () =>
 test("a departure leads to its pair, which is drawn", () =>
   on_page(async (page) => {
     await page.locator('table[data-file="departures.csv"] a', { hasText: "3D" }).click();
-    const view = page.locator("#made-pair-0");
+    const view = page.locator("#made-pair-1");
     await view.locator("canvas").waitFor();
     const picture = () => view.locator("canvas").screenshot();
     const whole = await picture();

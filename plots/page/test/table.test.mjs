@@ -105,7 +105,9 @@ test("a pair is one entry, with its wrong answers first", async () => {
   const one = { ...pair, answers: [right, inexact, pair.answers[0]] };
   const other = { ...one, source: "reproductions/block-0/other.jsonl", about: "other" };
   const apart = { ...pair, id: "another", b: { ...pair.b, translation: [2, 0, 0] }, answers: [] };
-  const pairs = pairs_of([one, other, apart]);
+  const deep = { ...one, id: "home-frame-3-1125-1129", b: apart.b, truth: { ...pair.truth, lower: -4e-3, upper: -4e-3 } };
+  const pairs = pairs_of([one, other, { ...apart, b: { ...pair.b, translation: [3, 0, 0] } }, deep]);
+  assert.match(pair_text(pairs.shift()), /^home, frame 3, bodies 1125 and 1129: separated by 4 mm; gjk says overlapping/);
   assert.equal(pairs.length, 2);
   assert.deepEqual(pairs[0].sources, [pair.source, other.source]);
   assert.deepEqual(pairs[0].answers.map(({ algorithm }) => algorithm), ["gjk", "mpr", "sat"]);

@@ -27,7 +27,6 @@ async function play(page, name, frame) {
 async function play_two(page) {
   const scene = await play(page, "rock-pile", 8);
   await scene.getByLabel("side by side").check();
-  await scene.getByLabel("Structure of").selectOption("uniform-grid");
 }
 
 // A view is an element of the page, or its upper part, after what a reader does to see it.

@@ -1,5 +1,5 @@
 // The pairs of bodies of a folder. Each is one entry, however many algorithms got it wrong and however many files list
-// it. The wrong come first, among pairs and among the answers of each.
+// it. The wrong come first, among pairs (the largest errors before others) and among the answers of each.
 import { length_text } from "../base/numbers";
 import type { AnswerView, CaseView } from "../bundle";
 import { distinct, grouped } from "./set";
@@ -34,15 +34,24 @@ export function pairs_of(cases: CaseView[]): Pair[] {
     };
   });
   const worst = ({ answers: [first] }: Pair): number => (first ? rank(first) : Infinity);
-  return pairs.sort((a, b) => worst(a) - worst(b) || 0);
+  return pairs.sort((a, b) => worst(a) - worst(b) || size(b) - size(a));
 }
 
+// How far the bodies are apart, or how deep they overlap, metres.
+const size = ({ truth: { lower, upper } }: CaseView): number =>
+  lower === null || upper === null ? 0 : Math.abs(lower + upper) / 2;
+
+// A run names a pair by its scene, frame and bodies.
+const name_of = ({ id }: Pair): string =>
+  id.replace(/^(.*)-frame-(\d+)-(\d+)-(\d+)$/, "$1, frame $2, bodies $3 and $4");
+
 // These words say what is so, and who says otherwise.
-export function pair_text({ id, truth, answers }: Pair): string {
+export function pair_text(pair: Pair): string {
+  const { truth, answers } = pair;
   const measure =
     truth.lower === null || truth.upper === null || truth.answer === "touching"
       ? ""
-      : ` by ${length_text(Math.abs(truth.lower + truth.upper) / 2)}`;
+      : ` by ${length_text(size(pair))}`;
   const said = ({ grade, answer }: AnswerView): [string, string] => {
     if (grade === "crashed") return ["crashed", "crashed"];
     if (grade === "hung") return ["did not end", "did not end"];
@@ -57,5 +66,5 @@ export function pair_text({ id, truth, answers }: Pair): string {
     const [one, several] = said(of[0]!);
     return `${names.join(", ")} ${names.length === 1 ? one : several}`;
   });
-  return [`${id}: ${truth.answer}${measure}`, ...sentences].join("; ");
+  return [`${name_of(pair)}: ${truth.answer}${measure}`, ...sentences].join("; ");
 }
