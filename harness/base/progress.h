@@ -3,19 +3,21 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "harness/base/clock.h"
 
 namespace touchstone::base {
 
-// A bar that is redrawn on a terminal (standard error), or one line per step elsewhere.
+// A bar that is redrawn on a terminal (standard error), or one line per step elsewhere. Both say how
+// long the rest takes.
 class Progress {
  public:
   // What the bar prints before each drawing: back to the line's begin, and the line is cleared.
   static constexpr const char* line_begin = "\r\033[K";
 
-  // `steps` > 0 is the total number of steps.
-  explicit Progress(std::size_t steps);
+  // `expected` has the share of the time of each step: numbers of one unit, none below 0.
+  explicit Progress(std::vector<double> expected);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -27,8 +29,11 @@ class Progress {
 
  private:
   void draw(double fraction);
+  // Returns the part of the work that is done, from 0 to 1.
+  double done(double fraction) const;
+  std::string time_left(double done) const;
 
-  std::size_t steps_;
+  std::vector<double> expected_;
   std::size_t begun_ = 0;
   bool terminal_;
   std::string label_;

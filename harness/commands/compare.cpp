@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <memory>
+#include <span>
+#include <string_view>
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
@@ -29,7 +32,7 @@ struct CompareOptions {
   std::string out, csv;
   double threshold = 0.03;
   int runs = 8;
-  bool any_machine = false, noisy = false;
+  bool any_machine = false, noisy = false, all = false;
 
   stats::Noise noise() const { return noisy ? stats::Noise::kept : stats::Noise::left_out; }
 };
@@ -45,7 +48,8 @@ void print(const std::string& title, const std::vector<std::string>& lines) {
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4f}", value); }
 
-void print(const std::vector<stats::ComparedCell>& cells, double threshold) {
+// Prints every cell.
+void print_all(const std::vector<stats::ComparedCell>& cells, double threshold) {
   for (std::size_t i = 0; i < cells.size();) {
     const stats::SetKey& key = cells[i].key;
     base::Table table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
@@ -60,11 +64,40 @@ void print(const std::vector<stats::ComparedCell>& cells, double threshold) {
   }
 }
 
+// Prints the cells with a verdict: those that are the slowest for sure come first.
+void print(std::string_view title, stats::Verdict wanted, const CompareOptions& options,
+           const std::vector<stats::ComparedCell>& cells) {
+  std::vector<const stats::ComparedCell*> found;
+  for (const stats::ComparedCell& cell : cells) {
+    if (stats::verdict(cell, options.threshold) == wanted) found.push_back(&cell);
+  }
+  std::ranges::stable_sort(found, std::greater<>(), [](const stats::ComparedCell* cell) {
+    return std::isnan(cell->ratio.low) ? 0 : cell->ratio.low;
+  });
+  constexpr std::size_t most = 5;
+  if (found.empty()) return;
+  fmt::print("{}\n", title);
+  for (const stats::ComparedCell* cell : std::span(found).first(std::min(most, found.size()))) {
+    const std::string ratio =
+        std::isnan(cell->ratio.low)
+            ? fmt::format("too few squares ({} + {})", cell->squares_a, cell->squares_b)
+            : fmt::format("{:.3f} ({:.3f} to {:.3f})", cell->ratio.median, cell->ratio.low,
+                          cell->ratio.high);
+    fmt::print("  {:<24}  {}, {}\n", ratio, cell->label, cell->key.words());
+  }
+  if (found.size() > most) {
+    fmt::print("  and {} more (--all prints every cell, --csv writes them)\n", found.size() - most);
+  }
+  fmt::print("\n");
+}
+
 // Prints the judgement of A and B. Returns the exit status.
 int judge(const CompareOptions& options, const stats::Results& a, const stats::Results& b,
           const std::vector<stats::ComparedCell>& cells) {
   print("A and B differ in", stats::remarks(a, b));
-  print(cells, options.threshold);
+  if (options.all) print_all(cells, options.threshold);
+  print("SLOWER in B: time in B over time in A", stats::Verdict::slower, options, cells);
+  print("Undecided", stats::Verdict::undecided, options, cells);
   if (!options.csv.empty()) record::write_rows(options.csv, cells, options.threshold);
   const std::vector<std::string> changed = stats::changed_answers(a, b, stats::Compared::answers);
   print("The answers changed", changed);
@@ -78,6 +111,15 @@ int judge(const CompareOptions& options, const stats::Results& a, const stats::R
   fmt::print("{} cells: {} slower, {} undecided, {} same, {} faster, {} not slower\n", cells.size(),
              slower, undecided, count(stats::Verdict::same), count(stats::Verdict::faster),
              count(stats::Verdict::not_slower));
+  if (undecided > 0 && options.programs.empty()) {
+    fmt::print(
+        "Two runs decide little: machines drift between them. What decides runs both programs in "
+        "turns, {} times:\n  touchstone compare --exe OLD --exe NEW "
+        "datasets/campaigns/compare.toml\n",
+        CompareOptions().runs);
+  } else if (undecided > 0) {
+    fmt::print("More runs decide more: --runs {}\n", 2 * options.runs);
+  }
   if (slower > 0 || !changed.empty()) return exit_measured_wrong;
   return undecided > 0 || cells.empty() ? exit_undecided : exit_done;
 }
@@ -181,6 +223,8 @@ void add_compare(Arguments command) {
             "With --exe: folder for the runs (default: results/local/compare in the project)")
       .needs(exe);
   command.text("--csv", options->csv, "Write the cells to this file, too");
+  command.flag("--all", options->all,
+               "Print every cell, not only those that are slower or undecided");
   command.flag("--any-machine", options->any_machine,
                "Compare although the machines differ or are not known");
   command.flag("--noisy", options->noisy,

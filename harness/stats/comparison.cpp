@@ -14,8 +14,6 @@ namespace {
 
 constexpr double confidence = 0.95;
 constexpr double significance = 0.05;
-// The fewest on either side, as for the interval of a median.
-constexpr std::size_t fewest_squares = 6;
 
 void correct(std::vector<ComparedCell>& cells) {
   std::vector<double> p;

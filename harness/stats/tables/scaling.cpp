@@ -89,10 +89,10 @@ std::vector<ExecutorRow> executor_rows(const Results& results, Noise noise) {
       const Contestant& base =
           *std::ranges::find(set.contestants, contestant.name(), &Contestant::name);
       if (&base == &contestant || !base.executor || !contestant.executor) continue;
-      const TestedRatio tested = ratio_between(set, contestant, base, noise);
-      if (std::isnan(tested.ratio.median)) continue;
-      rows.push_back({set.key, contestant.name(), *contestant.executor, *base.executor,
-                      tested.ratio, set.suspect});
+      const MedianInterval ratio = ratio_between(set, contestant, base, noise);
+      if (std::isnan(ratio.median)) continue;
+      rows.push_back(
+          {set.key, contestant.name(), *contestant.executor, *base.executor, ratio, set.suspect});
     }
   }
   return rows;

@@ -44,6 +44,23 @@ TEST_F(CompareCommand, ARegressionIsStatusOne) {
   EXPECT_EQ(run_program("compare " + path("b") + " " + path("a")).status, 0);
 }
 
+TEST_F(CompareCommand, WhatIsTheSameIsPrintedOnRequestOnly) {
+  run_.blocks[0].contestants[1].seconds *= 1.05;
+  const std::string few = compare().text;
+  EXPECT_THAT(few,
+              testing::ContainsRegex("SLOWER in B.*\n  1.05[0-9 ().to]+  uniform-grid, uniform"));
+  EXPECT_THAT(few, testing::Not(testing::HasSubstr("naive")));
+  EXPECT_THAT(compare("--all").text, testing::HasSubstr("naive"));
+}
+
+TEST_F(CompareCommand, ASummaryIsMadeOfTheRowsWhereNoneWasKept) {
+  folder_.write("a/departures.csv", "block,row,algorithm,ours,known,where,what,reproduction\n");
+  const Ran shown = run_program("show " + path("a"));
+  EXPECT_EQ(shown.status, 0) << shown.text;
+  EXPECT_THAT(shown.text, testing::HasSubstr("HOW FAST"));
+  EXPECT_THAT(shown.text, testing::HasSubstr("Touchstone, fake: Test CPU"));
+}
+
 TEST_F(CompareCommand, OtherPairsAreStatusOne) {
   run_.blocks[0].contestants[1].pair_hash = "00000000000000bb";
   EXPECT_EQ(compare().status, 1);
@@ -70,6 +87,8 @@ TEST_F(CompareCommand, TooLittleIsStatusThree) {
   const Ran ran = compare();
   EXPECT_EQ(ran.status, 3) << ran.text;
   EXPECT_THAT(ran.text, testing::HasSubstr("5 undecided"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("Undecided\n  too few squares (2 + 2)"));
+  EXPECT_THAT(ran.text, testing::HasSubstr("touchstone compare --exe OLD --exe NEW "));
 }
 
 TEST_F(CompareCommand, BadRequests) {
