@@ -263,7 +263,7 @@ void add_run(Arguments command) {
   add_depth_error(command, options->depth_error);
   add_shard(command, options->plan, options->shard).excludes(campaign);
   command.flag("--quick", options->quick,
-               "Take few and short samples of each block, for a first look");
+               "Take few samples, of at most 8 frames, for a first look");
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";

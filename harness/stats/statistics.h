@@ -22,6 +22,8 @@ struct MedianInterval {
   std::size_t n;
 };
 
+inline constexpr double usual_confidence = 0.95;
+
 // Returns the median of the distribution that the values are drawn from, between two order
 // statistics chosen by the sign test (Conover, "Practical Nonparametric Statistics", sec. 3.2):
 // valid for any distribution. 0 < confidence < 1. At 0.95 there is no interval below 6 values.

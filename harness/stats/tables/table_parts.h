@@ -13,8 +13,6 @@
 
 namespace touchstone::stats {
 
-inline constexpr double confidence = 0.95;
-
 using TakesPart = std::function<bool(const Contestant&)>;
 
 // Returns the fastest of those that take part, by the ratio of each to the baseline in its own

@@ -21,7 +21,7 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
   row.key = set.key;
   row.label = contestant.label;
   row.origin = contestant.origin;
-  row.seconds = median_interval(values_of(by_square(contestant, noise)), confidence);
+  row.seconds = median_interval(values_of(by_square(contestant, noise)), usual_confidence);
   row.minimum = nan;
   row.worst_frame = worst_frame(contestant, noise);
   std::vector<double> all;
@@ -58,8 +58,8 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
 
 RatioRow ratio_row(const SampleSet& set, const Contestant& a, const Contestant& base, bool canary,
                    Noise noise) {
-  const MedianInterval ratio = median_interval(paired_log_ratios(a, base, noise), confidence);
-  return {set.key, a.label, base.label, canary, if_known(exponential(ratio)), set.suspect};
+  const MedianInterval ratio = median_interval(paired_log_ratios(a, base, noise), usual_confidence);
+  return {set.key, a.label, base.label, canary, exponential(ratio), set.suspect};
 }
 
 // Returns the first library of the set that was timed and is right; null if there is none.
@@ -114,7 +114,7 @@ void add_winner(const SampleSet& set, std::int64_t batch, Noise noise, Tables& t
 
 MedianInterval ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
                              Noise noise) {
-  return if_known(exponential(log_ratio(a, b, set.baseline(), noise, confidence)));
+  return if_known(exponential(log_ratio(a, b, set.baseline(), noise, usual_confidence)));
 }
 
 Tables make_tables(const Results& results, Noise noise, double depth_error) {

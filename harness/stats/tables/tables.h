@@ -38,7 +38,7 @@ struct RatioRow {
   SetKey key;
   std::string label, baseline;
   bool canary = false;
-  MedianInterval ratio;  // exp of the median of paired log ratios over the squares; see if_known
+  MedianInterval ratio;  // exp of the median of paired log ratios over the squares
   bool suspect = false;  // see SampleSet
 };
 

@@ -64,7 +64,8 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
     }
     if (const RatioRow* const ratio = ratio_of(row.label, false)) {
       baseline = ratio->baseline;
-      cells.insert(cells.end(), {base::cell(ratio->ratio.median), interval_cell(ratio->ratio)});
+      const MedianInterval known = if_known(ratio->ratio);
+      cells.insert(cells.end(), {base::cell(known.median), interval_cell(known)});
     } else {
       cells.insert(cells.end(), {row.samples > 0 ? "1" : "-", "-"});
     }
