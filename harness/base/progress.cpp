@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace touchstone::base {
@@ -19,7 +20,9 @@ constexpr double least_seconds = 2, least_done = 0.02;
 }  // namespace
 
 Progress::Progress(std::vector<double> expected)
-    : expected_(std::move(expected)), terminal_(isatty(STDERR_FILENO) == 1) {}
+    : expected_(std::move(expected)),
+      all_(std::accumulate(expected_.begin(), expected_.end(), 0.0)),
+      terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (terminal_) fmt::print(stderr, "{}", line_begin);
@@ -27,6 +30,8 @@ Progress::~Progress() {
 
 void Progress::start(const std::string& label) {
   label_ = label;
+  before_ += current_;
+  current_ = begun_ < expected_.size() ? expected_[begun_] : 0;
   ++begun_;
   if (terminal_) {
     drawn_at_ = -1;
@@ -42,13 +47,7 @@ void Progress::part(double fraction) {
 }
 
 double Progress::done(double fraction) const {
-  double before = 0, all = 0;
-  for (std::size_t i = 0; i < expected_.size(); ++i) {
-    all += expected_[i];
-    if (i + 1 < begun_) before += expected_[i];
-    if (i + 1 == begun_) before += fraction * expected_[i];
-  }
-  return all > 0 ? before / all : 0;
+  return all_ > 0 ? (before_ + fraction * current_) / all_ : 0;
 }
 
 std::string Progress::time_left(double done) const {

@@ -18,6 +18,8 @@ class Progress {
 
   // `expected` has the share of the time of each step: numbers of one unit, none below 0.
   explicit Progress(std::vector<double> expected);
+  // These steps take equally long.
+  explicit Progress(std::size_t steps) : Progress(std::vector<double>(steps, 1.0)) {}
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -34,6 +36,8 @@ class Progress {
   std::string time_left(double done) const;
 
   std::vector<double> expected_;
+  double all_;                       // the sum of all
+  double before_ = 0, current_ = 0;  // of the steps that are done, and of the current one
   std::size_t begun_ = 0;
   bool terminal_;
   std::string label_;

@@ -113,15 +113,16 @@ campaign::Campaign campaign_of(const RunOptions& options) {
 // Leaves each group a small part of its time, for a first look. It has a folder of its own.
 void make_quick(campaign::Campaign& campaign) {
   constexpr double quick_seconds = 1;  // for the samples of a block
-  constexpr int quick_squares = 8;  // of one round: an interval needs six, and some are disturbed
+  constexpr int quick_squares = 8;     // an interval needs six, and some are disturbed
   constexpr int quick_frames = 8;
   campaign.name += "-quick";
   for (campaign::CampaignGroup& group : campaign.groups) {
     group.seconds = std::min(group.seconds, quick_seconds);
     group.frames = std::min(group.frames, quick_frames);
-    group.squares = quick_squares;
     group.rounds = 1;
     group.processes = 1;
+    // The share of one of many sets would end before it has an interval.
+    if (!group.choices().empty()) group.squares = quick_squares;
   }
 }
 

@@ -113,7 +113,8 @@ bool print_summary_of_rows(const std::filesystem::path& folder) {
   if (finished != results.machine.end() && finished->second == "no") {
     setting.stopped = stats::Stop{"its middle", "the same command with --resume"};
   }
-  const auto departures = record::read_rows<record::Departure>(folder / "departures.csv");
+  const auto departures =
+      record::read_rows<record::Departure>(files::row_file(folder / "departures.csv"));
   fmt::print("{}", stats::summary(results, stats::make_tables(results, setting.noise), departures,
                                   folder, setting));
   return true;

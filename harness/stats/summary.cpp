@@ -70,6 +70,27 @@ std::string list_text(const std::vector<std::string>& words, std::string_view be
   return text;
 }
 
+// Joins the first words, and counts the others, in lines of the page's width that are indented.
+std::string lines_text(const std::vector<std::string>& words, std::size_t indent) {
+  constexpr std::size_t width = 120;
+  std::string text;
+  std::size_t column = indent;
+  const auto add = [&](const std::string& word) {
+    if (!text.empty()) {
+      text += ";";
+      const bool fits = column + word.size() + 2 <= width;
+      text += fits ? " " : "\n" + std::string(indent, ' ');
+      column = fits ? column + 2 : indent;
+    }
+    text += word;
+    column += word.size();
+  };
+  const std::size_t shown = std::min(most_named, words.size());
+  for (const std::string& word : std::span(words).first(shown)) add(word);
+  if (words.size() > shown) add(fmt::format("{} more", words.size() - shown));
+  return text;
+}
+
 // Returns the two most frequent names.
 std::string most_often(const std::vector<std::string>& names) {
   std::map<std::string, std::ptrdiff_t> counts;
@@ -185,9 +206,9 @@ MedianInterval by_pairs(const Duels& duels) {
 
 std::string line_of(std::string_view name, const Duels& duels, std::string_view tail) {
   const auto count = [&](Side side) { return std::ranges::count(duels, side, &Duel::side); };
-  return fmt::format("{:<28}{:>7}{:>9}{:>8}{:>9}{:>18}   {}\n", name, duels.size(),
+  return fmt::format("{:<28}{:>7}{:>9}{:>8}{:>9}{:>18}{}{}\n", name, duels.size(),
                      count(Side::faster), count(Side::slower), count(Side::unclear),
-                     count(Side::no_library), tail);
+                     count(Side::no_library), tail.empty() ? "" : "   ", tail);
 }
 
 std::vector<const Duel*> known_of(const Duels& duels) {
@@ -356,7 +377,7 @@ std::string own_text(const Results& results, const Tables& tables, const ReportS
     }
     if (undecided > 0)
       words.push_back(
-          fmt::format("{} ratios not decided (fewer than six undisturbed squares)", undecided));
+          fmt::format("{} not decided (fewer than six undisturbed squares)", undecided));
     if (words.empty()) {
       words.push_back(seconds.empty()
                           ? "not timed"
@@ -380,7 +401,7 @@ struct Fault {
   double error = nan;   // the worst number beyond the stated error
   bool is_bound = false;
   std::vector<std::string> scenes;
-  std::string what;      // the first departure
+  std::string what;      // the first departure, shortened
   std::size_t more = 0;  // the number of further departures
 
   // Returns what is wrong with the answers; empty if nothing is.
@@ -429,7 +450,8 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Depar
     fault.by_design =
         fault.by_design || departure.what.find("approximate by design") != std::string::npos;
     if (fault.what.empty()) {
-      fault.what = departure.what + ", on " + departure.where;
+      fault.what = departure.what.substr(0, departure.what.find(';')) + " on " +
+                   departure.where.substr(0, departure.where.find(','));
     } else {
       ++fault.more;
     }
@@ -472,7 +494,7 @@ std::string right_text(const Results& results, const Tables& tables,
       "{:g} of the pair's size{}\n",
       tables.depth_error, stopped ? "; of what was checked before the stop" : "");
   const auto add = [&](std::string_view who, const std::vector<std::string>& words) {
-    text += fmt::format("  {:<12}{}\n", who, words.empty() ? "none" : list_text(words, "; "));
+    text += fmt::format("  {:<12}{}\n", who, words.empty() ? "none" : lines_text(words, 14));
   };
   if (libraries) add("libraries", of_libraries);
   add("ours", of_ours);
@@ -551,7 +573,8 @@ std::string files_text(const std::filesystem::path& folder) {
   const auto count = std::filesystem::is_directory(cases, error)
                          ? std::ranges::distance(std::filesystem::directory_iterator(cases, error))
                          : 0;
-  if (count > 0) text += fmt::format("Wrong     {} ({} cases)\n", cases.string(), count);
+  if (count > 0)
+    text += fmt::format("Wrong     {} ({} case{})\n", cases.string(), count, count == 1 ? "" : "s");
   return text;
 }
 
