@@ -21,7 +21,7 @@ namespace touchstone::stats {
 namespace {
 
 constexpr std::size_t most_scenes = 4;  // with rows of their own; algorithms of the user too
-constexpr std::size_t most_named = 5;   // in a line
+constexpr std::size_t most_named = 4;   // in a line
 
 // --- words -----------------------------------------------------------------------------------------
 
@@ -43,9 +43,13 @@ std::string count_text(std::int64_t count) {
 }
 
 std::string metres_text(double metres) {
-  if (metres >= 1) return fmt::format("{:.2g} m", metres);
-  if (metres >= 1e-3) return fmt::format("{:.2g} mm", metres * 1e3);
-  if (metres >= 1e-6) return fmt::format("{:.2g} um", metres * 1e6);
+  constexpr std::array<std::pair<double, const char*>, 3> units = {
+      {{1, "m"}, {1e-3, "mm"}, {1e-6, "um"}}};
+  for (const auto& [unit, name] : units) {
+    if (metres < 0.995 * unit) continue;
+    return metres >= 9.95 * unit ? fmt::format("{:.0f} {}", metres / unit, name)
+                                 : fmt::format("{:.2g} {}", metres / unit, name);
+  }
   return fmt::format("{:.0e} m", metres);
 }
 
@@ -62,11 +66,10 @@ std::string short_label(std::string label) {
 }
 
 // Joins the first words, and counts the others.
-std::string list_text(const std::vector<std::string>& words, std::string_view between = ", ") {
-  const auto shown = std::span(words).first(std::min(most_named, words.size()));
-  std::string text = fmt::format("{}", fmt::join(shown, between));
-  if (words.size() > shown.size())
-    text += fmt::format("{}{} more", between, words.size() - shown.size());
+std::string list_text(const std::vector<std::string>& words, std::size_t most = most_named) {
+  const auto shown = std::span(words).first(std::min(most, words.size()));
+  std::string text = fmt::format("{}", fmt::join(shown, ", "));
+  if (words.size() > shown.size()) text += fmt::format(", {} more", words.size() - shown.size());
   return text;
 }
 
@@ -167,7 +170,10 @@ std::vector<Duel> duels_of(const Results& results, const Tables& tables, Doubts&
       };
       if (std::ranges::none_of(set.contestants, is_timed)) continue;
       ++doubts.inputs;
-      if (set.suspect) doubts.suspect.push_back(set.key.words());
+      if (set.suspect)
+        doubts.suspect.push_back(
+            set.key.scene + " " +
+            (set.key.narrow() ? set.key.task + " " + set.key.pair_kind : "boxes"));
       Duel& duel = duels.emplace_back();
       duel.key = &set.key;
       duel.batch = batch;
@@ -237,6 +243,11 @@ std::string question_line(const std::string& name, const Duels& duels) {
     if (!duel->ours.empty()) ours.push_back(short_label(duel->ours));
   }
   tail += "  " + (duels.size() == 1 ? duels[0]->names() : most_often(ours));
+  std::vector<std::string> leaders;
+  for (const Duel* duel : duels) {
+    if (duel->side == Side::slower) leaders.push_back(short_label(duel->library));
+  }
+  if (duels.size() > 1 && !leaders.empty()) tail += "; behind " + most_often(leaders);
   return line_of(name, duels, tail);
 }
 
@@ -396,6 +407,7 @@ std::string own_text(const Results& results, const Tables& tables, const ReportS
 struct Fault {
   std::string label;
   bool ours = false, by_design = false;
+  bool slow = false;  // took more than the campaign's limit for a frame
   std::int64_t wrong = 0, queries = 0, unanswered = 0;
   double metres = nan;  // the worst answer on the wrong side
   double error = nan;   // the worst number beyond the stated error
@@ -411,11 +423,13 @@ struct Fault {
       words.push_back(fmt::format("{} of {}", count_text(wrong), count_text(queries)));
       std::vector<std::string> more_words;
       if (!std::isnan(metres)) more_words.push_back("by up to " + metres_text(metres));
-      more_words.push_back(list_text(scenes));
+      more_words.push_back(list_text(scenes, 2));
       words.back() += fmt::format(" ({})", fmt::join(more_words, "; "));
     }
-    if (!std::isnan(error) && !is_bound)
-      words.push_back(fmt::format("a number off by up to {:.2g} of the size", error));
+    if (!std::isnan(error)) {
+      words.push_back(is_bound ? fmt::format("depths up to {:.2g} of the size too large", error)
+                               : fmt::format("a number off by up to {:.2g} of the size", error));
+    }
     if (words.empty() && !what.empty())
       words.push_back(what + (more > 0 ? fmt::format(", and {} more", more) : ""));
     if (words.empty()) return "";
@@ -439,8 +453,10 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Depar
     fault.wrong += row.wrong;
     fault.unanswered += row.failed + row.unanswered;
     fault.metres = std::fmax(fault.metres, row.worst_disagreement);
-    if (row.wrong > 0 && std::ranges::find(fault.scenes, row.key.scene) == fault.scenes.end())
-      fault.scenes.push_back(row.key.scene);
+    const std::string scene = row.key.scene.substr(
+        0, std::min(row.key.scene.find(" gap "), row.key.scene.find(" depth ")));
+    if (row.wrong > 0 && std::ranges::find(fault.scenes, scene) == fault.scenes.end())
+      fault.scenes.push_back(scene);
     if (!(row.worst_error > tables.depth_error)) continue;
     fault.error = std::fmax(fault.error, row.worst_error);
     fault.is_bound = row.depth_is_bound;
@@ -449,7 +465,10 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Depar
     Fault& fault = fault_of(departure.algorithm, departure.ours);
     fault.by_design =
         fault.by_design || departure.what.find("approximate by design") != std::string::npos;
-    if (fault.what.empty()) {
+    if (departure.what.find("limit of") != std::string::npos ||
+        departure.what.find("not answered within") != std::string::npos) {
+      fault.slow = true;
+    } else if (fault.what.empty()) {
       fault.what = departure.what.substr(0, departure.what.find(';')) + " on " +
                    departure.where.substr(0, departure.where.find(','));
     } else {
@@ -473,16 +492,15 @@ std::string right_text(const Results& results, const Tables& tables,
   for (const AgreementRow& row : tables.agreement) queries += row.queries;
   if (queries == 0 && frames == 0 && departures.empty()) return "";
 
-  std::vector<std::string> of_libraries, of_ours, by_design, unanswered;
+  std::vector<std::string> of_libraries, of_ours, by_design, unanswered, slow;
   for (const Fault& fault : faults_of(tables, departures)) {
     const std::string text = fault.wrong_text();
-    if (fault.is_bound) {
-      by_design.push_back(fmt::format("{} depths up to {:.2g} of the size too large",
-                                      short_label(fault.label), fault.error));
-    }
-    // The departure of a bound is the bound.
-    if (!text.empty() && !(fault.is_bound && fault.wrong == 0)) {
-      (fault.by_design ? by_design : fault.ours ? of_ours : of_libraries).push_back(text);
+    if (fault.slow) slow.push_back(short_label(fault.label));
+    if (!text.empty()) {
+      (fault.by_design || (fault.is_bound && fault.wrong == 0) ? by_design
+       : fault.ours                                            ? of_ours
+                                                               : of_libraries)
+          .push_back(text);
     }
     if (fault.ours && fault.unanswered > 0) {
       unanswered.push_back(fmt::format("{} {} of {}", short_label(fault.label),
@@ -500,6 +518,7 @@ std::string right_text(const Results& results, const Tables& tables,
   add("ours", of_ours);
   if (!by_design.empty()) add("by design", by_design);
   if (!unanswered.empty()) add("unanswered", unanswered);
+  if (!slow.empty()) add("over time", slow);
   return text;
 }
 
@@ -510,7 +529,7 @@ std::string doubts_text(const Doubts& doubts) {
   if (!doubts.suspect.empty()) {
     words.push_back(fmt::format("{} of {} (an algorithm differed from its own copy): {}",
                                 doubts.suspect.size(), doubts.inputs,
-                                list_text(doubts.suspect, "; ")));
+                                list_text(doubts.suspect, 3)));
   }
   if (doubts.few_squares > 0) {
     words.push_back(fmt::format(
