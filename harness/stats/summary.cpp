@@ -122,6 +122,7 @@ struct Duel {
   const SetKey* key = nullptr;
   std::int64_t batch = -1;
   Side side = Side::unclear;
+  bool asks_libraries = false;
   std::string ours, library;                  // empty: none is right
   MedianInterval ratio = {nan, nan, nan, 0};  // the library's time over that of ours, if trusted
   double queries = 1, seconds = nan;          // of ours; `seconds` for one of them
@@ -153,7 +154,7 @@ void take(const Best& ours, const Best& library, bool suspect, Duel& duel, Doubt
   if (library.label.empty()) {
     duel.side = Side::no_library;
   } else if (!suspect) {
-    duel.ratio = library.ratio;
+    duel.ratio = if_known(library.ratio);
     duel.side = duel.ratio.low > 1    ? Side::faster
                 : duel.ratio.high < 1 ? Side::slower
                                       : Side::unclear;
@@ -177,6 +178,9 @@ std::vector<Duel> duels_of(const Results& results, const Tables& tables, Doubts&
       Duel& duel = duels.emplace_back();
       duel.key = &set.key;
       duel.batch = batch;
+      duel.asks_libraries = std::ranges::any_of(set.contestants, [&](const Contestant& contestant) {
+        return contestant.batch == batch && contestant.origin == record::RowOrigin::peer;
+      });
       const auto narrow = std::ranges::find_if(tables.narrow_best, [&](const NarrowBestRow& row) {
         return row.key == set.key && row.batch == batch;
       });
@@ -280,11 +284,19 @@ std::string scene_lines(const std::string& scene, const Duels& duels) {
     if (known == 0) {
       const bool none =
           std::ranges::all_of(own, [](const Duel* each) { return each->side == Side::no_library; });
-      parts.push_back(name + (none ? " no library is right" : " not decided"));
+      const bool asked = std::ranges::any_of(own, &Duel::asks_libraries);
+      parts.push_back(name + (!none   ? " not decided"
+                              : asked ? " no library is right"
+                                      : " no library was asked"));
       continue;
     }
     parts.push_back(fmt::format("{} {}", name, ratio_text(by_pairs(own))));
-    if (known < all) parts.back() += fmt::format(" on {:.0f} % of the pairs", 100 * known / all);
+    if (known < all) {
+      const double percent = 100 * known / all;
+      parts.back() += fmt::format(" on {} % of the {}",
+                                  percent < 1 ? "under 1" : fmt::format("{:.0f}", percent),
+                                  duel->key->narrow() ? "pairs" : "inputs");
+    }
   }
   return text + "  by pairs        " + list_text(parts) + "\n";
 }
@@ -371,7 +383,7 @@ std::string own_text(const Results& results, const Tables& tables, const ReportS
                    other.is_ours() == (rivals == &ours) && is_right(set, other, tables.depth_error);
           });
           if (rival == nullptr) continue;
-          const double ratio = ratio_between(set, mine, *rival, setting.noise).median;
+          const double ratio = if_known(ratio_between(set, mine, *rival, setting.noise)).median;
           if (std::isnan(ratio)) {
             ++undecided;
           } else {

@@ -101,7 +101,7 @@ void add_winner(const SampleSet& set, std::int64_t batch, Noise noise, Tables& t
   if (timed < 2) return;
   MedianInterval ratio = {nan, nan, nan, 0};
   if (runner_up != nullptr && !is_any_unheard(set, *winner, noise, takes_part)) {
-    ratio = ratio_between(set, *runner_up, *winner, noise);
+    ratio = if_known(ratio_between(set, *runner_up, *winner, noise));
   }
   if (std::isnan(ratio.median)) {
     ++tables.undecided;
@@ -114,7 +114,9 @@ void add_winner(const SampleSet& set, std::int64_t batch, Noise noise, Tables& t
 
 MedianInterval ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
                              Noise noise) {
-  return if_known(exponential(log_ratio(a, b, set.baseline(), noise, usual_confidence)));
+  const MedianInterval ratio =
+      exponential(log_ratio(a, b, set.baseline(), noise, usual_confidence));
+  return std::isnan(ratio.low) ? MedianInterval{nan, nan, nan, ratio.n} : ratio;
 }
 
 Tables make_tables(const Results& results, Noise noise, double depth_error) {

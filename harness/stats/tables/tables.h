@@ -170,8 +170,8 @@ struct Tables {
 };
 
 // Returns the ratio of the time of a to that of b, both of the set: paired over the squares that
-// both were in, else by their ratios to the baseline in their own squares. It is NaN below
-// fewest_squares.
+// both were in, else by their ratios to the baseline in their own squares. It is NaN if there is no
+// interval.
 MedianInterval ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
                              Noise noise);
 
