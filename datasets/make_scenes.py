@@ -3,7 +3,7 @@
 
     python3 datasets/make_scenes.py
 
-rock_pile.toml, crowd.toml, arch.toml, chain_net.toml and chain/*.obj: the same files each time, from
+brick_wall.toml, rock_pile.toml, crowd.toml, arch.toml, chain_net.toml and chain/*.obj: the same files each time, from
 Python's standard library alone.
 """
 import itertools
@@ -346,7 +346,24 @@ def make_chain_net(nodes=10):
                               "Each ring is ten convex bodies."], bodies)
 
 
+def make_brick_wall(courses=16, bricks=12):
+    """Sizes are binary fractions, so that faces touch exactly."""
+    length, width, height = 0.25, 0.125, 0.0625
+    bodies = [body('shape = {type = "halfspace", normal = [0, 0, 1], offset = 0}', (0, 0, 0), moving=False)]
+    for course in range(courses):
+        # Every second course begins and ends with half a brick.
+        sizes = [length] * bricks if course % 2 == 0 else [length / 2] + [length] * (bricks - 1) + [length / 2]
+        x = 0
+        for size in sizes:
+            shape = f'shape = {{type = "box", half_extents = {vector((size / 2, width / 2, height / 2))}}}'
+            bodies.append(body(shape, (x + size / 2, 0, (course + 0.5) * height), moving=False))
+            x += size
+    write_scene("brick_wall", [f"A wall of {courses} courses of bricks on the ground, each brick half over the next, at rest:",
+                               "faces touch exactly."], bodies)
+
+
 if __name__ == "__main__":
+    make_brick_wall()
     make_rock_pile()
     make_crowd()
     make_arch()

@@ -4,20 +4,62 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "algorithms/limit.h"
 #include "harness/base/clock.h"
 #include "harness/base/progress.h"
 #include "harness/campaign/block_run.h"
 #include "harness/campaign/blocks.h"
 #include "harness/campaign/check_pass/check_broad.h"
 #include "harness/campaign/check_pass/check_narrow.h"
-#include "harness/campaign/lower_bound_entry.h"
 #include "harness/campaign/run_folder.h"
 #include "harness/process/child_process.h"
 #include "harness/process/interrupt.h"
+#include "harness/stats/samples.h"
 
 namespace touchstone::campaign {
 namespace {
+
+// The lower bound of algorithms/limit.h, which only writes the pairs that the input holds.
+class LowerBound final : public BroadPhase {
+ public:
+  LowerBound(Executor& executor, const measure::BlockInput& input)
+      : bound_(make_broad_phase_limit(executor)), input_(input) {}
+
+  void build(std::span<const Aabb> boxes) override {
+    boxes_ = boxes;
+    bound_->sort_and_gather(boxes);
+  }
+  void update(const FrameChange& change) override { build(change.boxes); }
+  Status find_pairs(PairSink& sink) override {
+    // The frame to which these boxes belong.
+    const auto frame = std::ranges::find_if(input_.frames, [&](const measure::BlockFrame& own) {
+      return own.boxes.data() == boxes_.data();
+    });
+    bound_->write(frame->truth, sink);
+    return Status::ok;
+  }
+
+ private:
+  std::unique_ptr<BroadPhaseLimit> bound_;
+  const measure::BlockInput& input_;
+  std::span<const Aabb> boxes_;
+};
+
+// Returns it as a broad phase that is measured like the others of the block, named
+// stats::limit_label in its rows. It works only with the boxes of this input, which outlives it.
+BroadPhaseEntry lower_bound_entry(const measure::BlockInput& input) {
+  return {.info = {.name = stats::limit_label,
+                   .citation = "a radix sort, a gather, and the writing of the pairs",
+                   .origin = Origin::oracle},
+          .make = [&input](Executor& executor) {
+            return std::make_unique<LowerBound>(executor, input);
+          }};
+}
 
 // The sets of true pairs, and the sets of the broad phases' pairs.
 struct NarrowInput {
@@ -92,7 +134,12 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
   {
     const process::InterruptGuard guard;
     const base::UnitRange range = blocks.range();
-    base::Progress progress(static_cast<std::size_t>(range.size()));
+    std::vector<double> expected;  // seconds of each block; those that are done take none
+    for (std::int64_t number = range.first; number < range.end; ++number) {
+      const RunContext context = blocks.context(number, nullptr);
+      expected.push_back(number < at ? 0 : context.block->group->seconds);
+    }
+    base::Progress progress(std::move(expected));
     for (std::int64_t number = range.first; number < range.end; ++number) {
       if (process::InterruptGuard::raised()) break;
       progress.start(blocks.label(number));
@@ -100,6 +147,10 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
       RunContext context = blocks.context(number, &result.findings);
       context.results = folder;
       run_block(context, context.number == at, progress, files);
+      const bool timed = !rows.empty() && rows.back().block == number &&
+                         rows.back().kind == record::RowKind::sample;
+      result.stopped_at = fmt::format("the {} of block {} of {}, {}", timed ? "samples" : "check",
+                                      number + 1, range.end, blocks.label(number));
     }
     result.interrupted = process::InterruptGuard::raised();
   }

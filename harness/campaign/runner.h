@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "harness/campaign/campaign.h"
 #include "harness/record/findings.h"
@@ -14,6 +15,7 @@ namespace touchstone::campaign {
 struct RunResult {
   record::Findings findings;
   bool interrupted = false;
+  std::string stopped_at;  // of an interrupted run, such as "the check of block 3 of 13, city"
 };
 
 // Loads every scene first, so that a faulty one is reported before anything is written

@@ -54,11 +54,6 @@ std::vector<double> SetTimes::log_ratios(const std::string& a, const std::string
   return stats::paired_log_ratios(find(a), find(b), noise(noisy));
 }
 
-stats::MedianInterval SetTimes::log_ratio(const std::string& a, const std::string& b, bool noisy,
-                                          double confidence) const {
-  return stats::log_ratio(find(a), find(b), find(baseline_), noise(noisy), confidence).value;
-}
-
 double half_width(const stats::MedianInterval& log_ratio) {
   return (std::exp(log_ratio.high) - std::exp(log_ratio.low)) / 2 / std::exp(log_ratio.median);
 }

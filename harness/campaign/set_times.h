@@ -27,10 +27,6 @@ class SetTimes {
   std::vector<double> times(const std::string& label, bool noisy) const;
   // Returns log(a / b) of the squares that both were in.
   std::vector<double> log_ratios(const std::string& a, const std::string& b, bool noisy) const;
-  // Returns log(a / b) with its interval; contestants without a common square are compared by their
-  // ratios to the baseline.
-  stats::MedianInterval log_ratio(const std::string& a, const std::string& b, bool noisy,
-                                  double confidence) const;
 
  private:
   const stats::Contestant& find(const std::string& label) const;

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <span>
+#include <string_view>
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
@@ -46,46 +48,56 @@ void print(const std::string& title, const std::vector<std::string>& lines) {
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4f}", value); }
 
-// Prints the cells in their order: all, or those that are slower, and the slowest few of the undecided.
-void print(const CompareOptions& options, const std::vector<stats::ComparedCell>& cells) {
-  constexpr std::size_t most_undecided = 10;
-  std::vector<std::size_t> shown, undecided;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const stats::Verdict verdict = stats::verdict(cells[i], options.threshold);
-    const bool is_shown = options.all || verdict == stats::Verdict::slower;
-    if (is_shown || verdict == stats::Verdict::undecided) {
-      (is_shown ? shown : undecided).push_back(i);
-    }
-  }
-  const auto ratio = [&](std::size_t i) {
-    return std::isnan(cells[i].ratio.median) ? 0 : cells[i].ratio.median;
-  };
-  std::ranges::stable_sort(undecided, std::ranges::greater{}, ratio);
-  const std::size_t left_out = undecided.size() - std::min(undecided.size(), most_undecided);
-  undecided.resize(undecided.size() - left_out);
-  shown.insert(shown.end(), undecided.begin(), undecided.end());
-  std::ranges::sort(shown);
-  for (std::size_t n = 0; n < shown.size();) {
-    const stats::SetKey& key = cells[shown[n]].key;
+// Prints every cell.
+void print_all(const std::vector<stats::ComparedCell>& cells, double threshold) {
+  for (std::size_t i = 0; i < cells.size();) {
+    const stats::SetKey& key = cells[i].key;
     base::Table table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
-    for (; n < shown.size() && cells[shown[n]].key == key; ++n) {
-      const stats::ComparedCell& cell = cells[shown[n]];
+    for (; i < cells.size() && cells[i].key == key; ++i) {
+      const stats::ComparedCell& cell = cells[i];
       table.add({cell.label, number(cell.ratio.median), number(cell.ratio.low),
                  number(cell.ratio.high), fmt::format("{:.2g}", cell.p_corrected),
                  fmt::format("{} + {}", cell.squares_a, cell.squares_b),
-                 std::string(to_string(stats::verdict(cell, options.threshold)))});
+                 std::string(to_string(stats::verdict(cell, threshold)))});
     }
     fmt::print("{}\n\n{}\n", key.words(), table.text(base::page_width()));
   }
-  if (left_out > 0)
-    fmt::print("{} more cells are undecided; --all prints every cell\n\n", left_out);
+}
+
+// Prints the cells with a verdict: those that are the slowest for sure come first.
+void print(std::string_view title, stats::Verdict wanted, const CompareOptions& options,
+           const std::vector<stats::ComparedCell>& cells) {
+  std::vector<const stats::ComparedCell*> found;
+  for (const stats::ComparedCell& cell : cells) {
+    if (stats::verdict(cell, options.threshold) == wanted) found.push_back(&cell);
+  }
+  std::ranges::stable_sort(found, std::greater<>(), [](const stats::ComparedCell* cell) {
+    return std::isnan(cell->ratio.low) ? 0 : cell->ratio.low;
+  });
+  constexpr std::size_t most = 5;
+  if (found.empty()) return;
+  fmt::print("{}\n", title);
+  for (const stats::ComparedCell* cell : std::span(found).first(std::min(most, found.size()))) {
+    const std::string ratio =
+        std::isnan(cell->ratio.low)
+            ? fmt::format("too few squares ({} + {})", cell->squares_a, cell->squares_b)
+            : fmt::format("{:.3f} ({:.3f} to {:.3f})", cell->ratio.median, cell->ratio.low,
+                          cell->ratio.high);
+    fmt::print("  {:<24}  {}, {}\n", ratio, cell->label, cell->key.words());
+  }
+  if (found.size() > most) {
+    fmt::print("  and {} more (--all prints every cell, --csv writes them)\n", found.size() - most);
+  }
+  fmt::print("\n");
 }
 
 // Prints the judgement of A and B. Returns the exit status.
 int judge(const CompareOptions& options, const stats::Results& a, const stats::Results& b,
           const std::vector<stats::ComparedCell>& cells) {
   print("A and B differ in", stats::remarks(a, b));
-  print(options, cells);
+  if (options.all) print_all(cells, options.threshold);
+  print("SLOWER in B: time in B over time in A", stats::Verdict::slower, options, cells);
+  print("Undecided", stats::Verdict::undecided, options, cells);
   if (!options.csv.empty()) record::write_rows(options.csv, cells, options.threshold);
   const std::vector<std::string> changed = stats::changed_answers(a, b, stats::Compared::answers);
   print("The answers changed", changed);
@@ -100,7 +112,13 @@ int judge(const CompareOptions& options, const stats::Results& a, const stats::R
              slower, undecided, count(stats::Verdict::same), count(stats::Verdict::faster),
              count(stats::Verdict::not_slower));
   if (undecided > 0 && options.programs.empty()) {
-    fmt::print("`touchstone compare --exe OLD --exe NEW` decides more: its runs take turns\n");
+    fmt::print(
+        "Two runs decide little: machines drift between them. What decides runs both programs in "
+        "turns, {} times:\n  touchstone compare --exe OLD --exe NEW "
+        "datasets/campaigns/compare.toml\n",
+        CompareOptions().runs);
+  } else if (undecided > 0) {
+    fmt::print("More runs decide more: --runs {}\n", 2 * options.runs);
   }
   if (slower > 0 || !changed.empty()) return exit_measured_wrong;
   return undecided > 0 || cells.empty() ? exit_undecided : exit_done;
@@ -206,7 +224,7 @@ void add_compare(Arguments command) {
       .needs(exe);
   command.text("--csv", options->csv, "Write the cells to this file, too");
   command.flag("--all", options->all,
-               "Print every cell (default: those that are slower, and ten that are undecided)");
+               "Print every cell, not only those that are slower or undecided");
   command.flag("--any-machine", options->any_machine,
                "Compare although the machines differ or are not known");
   command.flag("--noisy", options->noisy,

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <memory>
 #include <string_view>
 
 #include "harness/base/error.h"
+#include "harness/base/shell_word.h"
 #include "harness/campaign/plan.h"
 #include "harness/campaign/runner.h"
 #include "harness/commands/arguments.h"
@@ -19,7 +21,7 @@
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
 #include "harness/scene/generators/generators.h"
-#include "harness/stats/run_report.h"
+#include "harness/stats/summary.h"
 
 namespace touchstone::commands {
 namespace {
@@ -111,10 +113,16 @@ campaign::Campaign campaign_of(const RunOptions& options) {
 // Leaves each group a small part of its time, for a first look. It has a folder of its own.
 void make_quick(campaign::Campaign& campaign) {
   constexpr double quick_seconds = 1;  // for the samples of a block
+  constexpr int quick_squares = 8;     // an interval needs six, and some are disturbed
+  constexpr int quick_frames = 8;
   campaign.name += "-quick";
   for (campaign::CampaignGroup& group : campaign.groups) {
     group.seconds = std::min(group.seconds, quick_seconds);
+    group.frames = std::min(group.frames, quick_frames);
+    group.rounds = 1;
     group.processes = 1;
+    // The share of one of many sets would end before it has an interval.
+    if (!group.choices().empty()) group.squares = quick_squares;
   }
 }
 
@@ -167,15 +175,38 @@ bool is_other_file(const std::string& file) {
   return std::ranges::any_of(keys, [&](std::string_view key) { return files::has_key(file, key); });
 }
 
+// Returns the names that the user wrote out in a list of algorithms, without words such as `ours`.
+void add_named(const std::string& list, std::vector<std::string>& names) {
+  constexpr auto words =
+      std::to_array<std::string_view>({"all", "ours", "peers", "libraries", "oracle", "none"});
+  for (std::string& name : kinds::split_names(list)) {
+    if (std::ranges::find(words, name) == words.end()) names.push_back(std::move(name));
+  }
+}
+
+// The command that goes on with this run.
+std::string command_to_go_on() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::string word, text = "touchstone";
+  std::getline(stream, word, '\0');  // the program
+  while (std::getline(stream, word, '\0')) {
+    if (word != "--overwrite" && word != "--resume") text += " " + base::shell_word(word);
+  }
+  return text + " --resume";
+}
+
 // Writes tables.md and prints the summary, or all tables on request.
 void report(const campaign::Campaign& campaign, const campaign::RunResult& result,
             const std::filesystem::path& folder, const RunOptions& options) {
+  stats::ReportSetting setting = {
+      .noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out,
+      .depth_error = options.depth_error};
+  for (const std::string* list : {&options.broad, &options.narrow, &options.concave})
+    add_named(*list, setting.own);
+  if (result.interrupted) setting.stopped = stats::Stop{result.stopped_at, command_to_go_on()};
   const stats::RunReport report =
       stats::write_report(stats::read_results(folder), result.findings.departures(),
-                          result.interrupted ? nullptr : &campaign.published,
-                          {.noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out,
-                           .depth_error = options.depth_error},
-                          folder);
+                          result.interrupted ? nullptr : &campaign.published, setting, folder);
   if (options.tables) {
     fmt::print("{}\n{}\n", report.tables, record::departures_text(result.findings));
     if (!report.published.empty()) fmt::print("{}\n", report.published);
@@ -233,7 +264,7 @@ void add_run(Arguments command) {
   add_depth_error(command, options->depth_error);
   add_shard(command, options->plan, options->shard).excludes(campaign);
   command.flag("--quick", options->quick,
-               "Spend at most a second on the samples of each block, for a first look");
+               "Take few samples, of at most 8 frames, for a first look");
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";

@@ -20,13 +20,16 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
+#include "harness/files/row_file.h"
 #include "harness/files/text_file.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
 #include "harness/record/facts.h"
+#include "harness/record/findings.h"
 #include "harness/stats/cells/cell_results.h"
 #include "harness/stats/cells/cell_tables.h"
-#include "harness/stats/machines/machine_tables.h"
+#include "harness/stats/machines.h"
+#include "harness/stats/summary.h"
 #include "harness/stats/tables/tables.h"
 
 namespace touchstone::commands {
@@ -90,21 +93,46 @@ void write_tables(const ShowOptions& options) {
       stats::make_tables(of_machines.begin()->second, setting.noise, setting.depth_error);
   std::filesystem::create_directories(folder);
   stats::write_tables(tables, options.band, folder);
-  fmt::print("{} times, {} ratios, {} winners, {} exponents in {}\n", tables.times.size(),
-             tables.ratios.size(), tables.winners.size(), tables.exponents.size(),
-             (folder / "tables.md").string());
+  fmt::print("{} times, {} ratios, {} winners ({} inputs undecided), {} exponents in {}\n",
+             tables.times.size(), tables.ratios.size(), tables.winners.size(), tables.undecided,
+             tables.exponents.size(), (folder / "tables.md").string());
 }
 
-// Prints what the work ended with. Folders without that text have its numbers in a page.
+// Prints the summary of a campaign's rows, of one machine; returns false if there are no such rows.
+bool print_summary_of_rows(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_regular_file(files::row_file(folder / "raw.csv")) ||
+      !std::filesystem::is_regular_file(files::row_file(folder / "departures.csv")) ||
+      stats::is_of_cells(folder)) {
+    return false;
+  }
+  const auto of_machines = stats::read_machines(folder, origin_of);
+  if (of_machines.size() > 1) return false;
+  const stats::Results& results = of_machines.begin()->second;
+  stats::ReportSetting setting;
+  const auto finished = results.machine.find("finished");
+  if (finished != results.machine.end() && finished->second == "no") {
+    setting.stopped = stats::Stop{"its middle", "the same command with --resume"};
+  }
+  const auto departures =
+      record::read_rows<record::Departure>(files::row_file(folder / "departures.csv"));
+  fmt::print("{}", stats::summary(results, stats::make_tables(results, setting.noise), departures,
+                                  folder, setting));
+  return true;
+}
+
+// Prints what the work ended with. Folders without that text have its numbers in rows or a page.
 int print_kept(const std::filesystem::path& of) {
   constexpr auto names = std::to_array<std::string_view>(
-      {summary_file, "advice.txt", "tables.md", "front.md", "envelope.md"});
+      {summary_file, "advice.txt", "", "tables.md", "front.md", "envelope.md"});
   const bool is_folder = std::filesystem::is_directory(of);
   const std::filesystem::path folder = is_folder ? of : of.parent_path();
   for (const std::string_view name : names) {
-    if (!std::filesystem::is_regular_file(folder / name)) continue;
-    fmt::print("{}", files::read_text(folder / name));
-    return exit_done;
+    if (name.empty()) {
+      if (print_summary_of_rows(folder)) return exit_done;
+    } else if (std::filesystem::is_regular_file(folder / name)) {
+      fmt::print("{}", files::read_text(folder / name));
+      return exit_done;
+    }
   }
   throw base::InputError(
       of.string(), 0,

@@ -181,6 +181,9 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
       frames = scene.frames;
       scene.files.push_back(imported);
     }
+    if (!table.boolean("moving", true)) {
+      for (Body& body : scene.bodies) body.moving = false;
+    }
     refuse_for_listed(file, overrides);
     if (scene.recording.empty()) {
       read_motion_of_listed(table, overrides, scene);

@@ -12,9 +12,8 @@
 #include "harness/campaign/run_folder.h"
 #include "harness/files/folders/inside.h"
 #include "harness/record/findings.h"
-#include "harness/stats/machines/blocks.h"
-#include "harness/stats/machines/machine_tables.h"
-#include "harness/stats/run_report.h"
+#include "harness/stats/machines.h"
+#include "harness/stats/summary.h"
 
 namespace touchstone::shards {
 namespace {

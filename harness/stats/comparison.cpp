@@ -12,10 +12,7 @@
 namespace touchstone::stats {
 namespace {
 
-constexpr double confidence = 0.95;
 constexpr double significance = 0.05;
-// The fewest on either side, as for the interval of a median.
-constexpr std::size_t fewest_squares = 6;
 
 void correct(std::vector<ComparedCell>& cells) {
   std::vector<double> p;
@@ -136,7 +133,7 @@ std::vector<ComparedCell> compare(const Results& a, const Results& b, Noise nois
     const std::vector<double> of_a = logs(by_square(in_a, noise));
     const std::vector<double> of_b = logs(by_square(in_b, noise));
     if (of_a.empty() && of_b.empty() && in_a.failure) return;  // it has no times
-    MedianInterval ratio = exponential(shift(of_a, of_b, confidence));
+    MedianInterval ratio = exponential(shift(of_a, of_b, usual_confidence));
     if (ratio.n < fewest_squares) ratio.low = ratio.high = std::nan("");
     cells.push_back(
         {set.key, in_a.label, ratio, mann_whitney(of_a, of_b), 1, of_a.size(), of_b.size()});
@@ -158,7 +155,7 @@ std::vector<ComparedCell> compare_runs(std::span<const Results> a, std::span<con
       if (!std::isnan(run_a + run_b)) ratios.push_back(run_b - run_a);
     }
     if (of_a.empty() && of_b.empty() && in_a.failure) return;
-    cells.push_back({set.key, in_a.label, exponential(median_interval(ratios, confidence)),
+    cells.push_back({set.key, in_a.label, exponential(median_interval(ratios, usual_confidence)),
                      mann_whitney(of_a, of_b), 1, of_a.size(), of_b.size()});
   });
   correct(cells);

@@ -47,7 +47,7 @@ PublishedRow iterations_row(const PublishedClaim& claim, const SampleSet& set) {
 
 PublishedRow faster_row(const PublishedClaim& claim, const SampleSet& set, Noise noise) {
   const MedianInterval ratio =
-      ratio_between(set, *set.find(claim.algorithm), *set.find(claim.than), noise).ratio;
+      ratio_between(set, *set.find(claim.algorithm), *set.find(claim.than), noise);
   PublishedRow row{set.key, fmt::format("{} is faster than {}", claim.algorithm, claim.than), "yes",
                    "too few quiet squares", Holds::undecided};
   if (std::isnan(ratio.low)) return row;

@@ -12,7 +12,7 @@
 #include "harness/files/csv.h"
 #include "harness/files/row_file.h"
 #include "harness/record/facts.h"
-#include "harness/stats/machines/blocks.h"
+#include "harness/stats/machines.h"
 #include "harness/stats/statistics.h"
 
 namespace touchstone::stats {
@@ -107,6 +107,7 @@ class Reader {
     check.pair_count = row.pair_count;
     check.seconds = row.seconds;
     check.worst_error = row.worst_error;
+    check.worst_disagreement = row.worst_disagreement;
     check.contact_count = row.contact_count;
     check.disagreements = row.disagreements;
     check.failures = row.failures;

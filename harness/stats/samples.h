@@ -76,6 +76,8 @@ struct Check {
   record::Phase phase = record::Phase::build;
   double seconds = 0;      // not a sample; NaN if the check failed
   double worst_error = 0;  // error of a distance or depth; NaN if there is none
+  double worst_disagreement =
+      nan;  // exact distance or depth of the worst answer on the wrong side, metres
   std::optional<record::RowStatus> status;
   std::string pair_hash, outcome_hash;
   std::string grade;  // of a cell run: how the answers compare with exact ones, in words
@@ -169,13 +171,9 @@ double worst_frame(const Contestant& contestant, Noise noise);
 // Returns log(a / b) for every square that both were in: the values of paired statistics.
 std::vector<double> paired_log_ratios(const Contestant& a, const Contestant& b, Noise noise);
 
-// log(a / b), and the p of the hypothesis that it is 0. Contestants that were never in one square
-// are compared by their ratios to the baseline in their own squares (Mann-Whitney).
-struct LogRatio {
-  MedianInterval value;
-  double p = 1;
-};
-LogRatio log_ratio(const Contestant& a, const Contestant& b, const Contestant& baseline,
-                   Noise noise, double confidence);
+// Returns log(a / b). Contestants that were never in one square are compared by their ratios to the
+// baseline in their own squares (Mann-Whitney).
+MedianInterval log_ratio(const Contestant& a, const Contestant& b, const Contestant& baseline,
+                         Noise noise, double confidence);
 
 }  // namespace touchstone::stats

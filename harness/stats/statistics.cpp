@@ -119,13 +119,9 @@ MedianInterval exponential(const MedianInterval& of_logs) {
   return {std::exp(of_logs.median), std::exp(of_logs.low), std::exp(of_logs.high), of_logs.n};
 }
 
-double sign_test(std::span<const double> values) {
-  const auto positive = std::ranges::count_if(values, [](double x) { return x > 0; });
-  const auto negative = std::ranges::count_if(values, [](double x) { return x < 0; });
-  if (positive + negative == 0) return 1;
-  const boost::math::binomial heads(static_cast<double>(positive + negative), 0.5);
-  return std::min(1.0,
-                  2 * boost::math::cdf(heads, static_cast<double>(std::min(positive, negative))));
+MedianInterval if_known(const MedianInterval& values) {
+  const bool known = values.n >= fewest_squares && !std::isnan(values.low);
+  return known ? values : MedianInterval{nan, nan, nan, values.n};
 }
 
 double mann_whitney(std::span<const double> a, std::span<const double> b) {

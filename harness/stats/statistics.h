@@ -22,20 +22,23 @@ struct MedianInterval {
   std::size_t n;
 };
 
+inline constexpr double usual_confidence = 0.95;
+
 // Returns the median of the distribution that the values are drawn from, between two order
 // statistics chosen by the sign test (Conover, "Practical Nonparametric Statistics", sec. 3.2):
 // valid for any distribution. 0 < confidence < 1. At 0.95 there is no interval below 6 values.
 MedianInterval median_interval(std::vector<double> values, double confidence);
+
+// With fewer values there is no interval at 95 %, and nothing is said of who is faster.
+inline constexpr std::size_t fewest_squares = 6;
+// Returns the estimate as it is, or NaN if it is of fewer values or has no interval.
+MedianInterval if_known(const MedianInterval& values);
 
 // Returns the interval's two ends to four digits, times `scale`; "-" if there is none.
 std::string interval_cell(const MedianInterval& values, double scale = 1);
 
 // Converts an estimate of logarithms to one of their arguments.
 MedianInterval exponential(const MedianInterval& of_logs);
-
-// Two-sided sign test of a median of 0: the probability of signs at least so uneven. Zeros are left
-// out (Dixon and Mood 1946); the result is 1 if no value is left.
-double sign_test(std::span<const double> values);
 
 // Two-sided Mann-Whitney test: the probability, if both samples come from one distribution, of
 // ranks at least so uneven. It is exact, with ties, up to 60 values in all (Streitberg and Roehmel

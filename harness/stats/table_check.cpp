@@ -76,7 +76,7 @@ TableCheck check_tables(const std::filesystem::path& reference, const Results& h
     const Contestant* const baseline = set == nullptr ? nullptr : set->find(cell.baseline);
     cell.ratio = {nan, nan, nan, 0};
     if (contestant != nullptr && baseline != nullptr) {
-      cell.ratio = ratio_between(*set, *contestant, *baseline, noise).ratio;
+      cell.ratio = ratio_between(*set, *contestant, *baseline, noise);
     }
     const SampleSet* const set_there = stated.find(cell.key);
     const bool suspect =

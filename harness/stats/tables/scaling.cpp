@@ -43,9 +43,9 @@ std::vector<ExponentRow> exponent_rows(const std::vector<TimeRow>& times) {
     own.seconds.push_back(time.seconds.median);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].law = fit_power_law(points[i].counts, points[i].seconds, confidence);
+    rows[i].law = fit_power_law(points[i].counts, points[i].seconds, usual_confidence);
     const Points many = from(points[i], many_bodies);
-    rows[i].law_of_many = fit_power_law(many.counts, many.seconds, confidence);
+    rows[i].law_of_many = fit_power_law(many.counts, many.seconds, usual_confidence);
     std::ranges::sort(rows[i].counts);
     const auto repeated = std::ranges::unique(rows[i].counts);
     rows[i].counts.erase(repeated.begin(), repeated.end());
@@ -73,8 +73,8 @@ std::vector<SpeedUpRow> speed_up_rows(const Results& results, Noise noise) {
       // At one thread there is no executor.
       if (alike == nullptr) alike = base->find(contestant.name());
       if (alike == nullptr) continue;
-      const MedianInterval speed_up = exponential(
-          shift(logs(by_square(contestant, noise)), logs(by_square(*alike, noise)), confidence));
+      const MedianInterval speed_up = exponential(shift(
+          logs(by_square(contestant, noise)), logs(by_square(*alike, noise)), usual_confidence));
       if (std::isnan(speed_up.median)) continue;
       rows.push_back({set.key, contestant.label, base->key.threads, speed_up});
     }
@@ -89,10 +89,10 @@ std::vector<ExecutorRow> executor_rows(const Results& results, Noise noise) {
       const Contestant& base =
           *std::ranges::find(set.contestants, contestant.name(), &Contestant::name);
       if (&base == &contestant || !base.executor || !contestant.executor) continue;
-      const TestedRatio tested = ratio_between(set, contestant, base, noise);
-      if (std::isnan(tested.ratio.median)) continue;
-      rows.push_back({set.key, contestant.name(), *contestant.executor, *base.executor,
-                      tested.ratio, set.suspect});
+      const MedianInterval ratio = ratio_between(set, contestant, base, noise);
+      if (std::isnan(ratio.median)) continue;
+      rows.push_back(
+          {set.key, contestant.name(), *contestant.executor, *base.executor, ratio, set.suspect});
     }
   }
   return rows;

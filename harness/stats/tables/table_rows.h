@@ -49,13 +49,11 @@ void columns(Row& row, Visit visit) {
         "with the least of its longest frames. Empty for narrow phases, and if it is not known.");
 }
 
-// Visits the columns of a ratio that was tested.
+// Visits the columns of a ratio and its squares.
 template <class Row, class Visit>
-void tested_columns(Row& row, const std::string& what, Visit& visit) {
+void ratio_columns(Row& row, const std::string& what, Visit& visit) {
   interval_columns("ratio", row.ratio, what, visit);
   visit("squares", row.ratio.n, "Number of squares.");
-  visit("p", row.p, "Probability by the sign test, if the true ratio is 1.");
-  visit("p_corrected", row.p_corrected, "The same after Holm's correction over the table.");
 }
 
 // ratios.csv and library_ratios.csv. `band` widens the intervals to the stated bands.
@@ -65,8 +63,10 @@ void columns(Row& row, Visit visit, double band) {
   visit("algorithm", row.label, "The algorithm's label.");
   visit("baseline", row.baseline, "The algorithm that its time is compared with.");
   visit("canary", row.canary, "1 for the baseline against its twin; its true ratio is 1.");
-  tested_columns(row, "Time over the baseline's: the median of paired log ratios over the squares.",
-                 visit);
+  ratio_columns(row,
+                "Time over the baseline's: the median of paired log ratios over the squares. Without "
+                "an interval it decides nothing.",
+                visit);
   visit("band_low", record::derived([&, band] { return row.ratio.low / band; }),
         "Lower end of the band in which `reproduce` wants the interval to lie.");
   visit("band_high", record::derived([&, band] { return row.ratio.high * band; }),
@@ -84,7 +84,11 @@ void columns(Row& row, Visit visit) {
         "Pairs of a call, of all that the row compares, if the campaign sets it; empty: 256.");
   visit("winner", row.winner, "The fastest of those that answer right.");
   visit("runner_up", row.runner_up, "The next.");
-  tested_columns(row, "The runner-up's time over the winner's.", visit);
+  ratio_columns(
+      row,
+      "The runner-up's time over the winner's; where the interval is not above 1, the two "
+      "are not told apart.",
+      visit);
   visit("suspect", row.suspect, "As in ratios.csv.");
 }
 

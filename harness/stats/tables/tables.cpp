@@ -5,23 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "harness/stats/tables/fastest.h"
 #include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {
 namespace {
-
-// Corrects over a table: each row's p becomes its p_corrected.
-template <class Row>
-void correct(std::vector<Row>& rows, const auto& counts) {
-  std::vector<double> p;
-  for (const Row& row : rows) {
-    if (counts(row)) p.push_back(row.p);
-  }
-  const std::vector<double> corrected = holm(p);
-  std::size_t next = 0;
-  for (Row& row : rows) row.p_corrected = counts(row) ? corrected[next++] : row.p;
-}
 
 std::vector<double> values_of(const std::map<SquareKey, double>& squares) {
   std::vector<double> values;
@@ -34,7 +21,7 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
   row.key = set.key;
   row.label = contestant.label;
   row.origin = contestant.origin;
-  row.seconds = median_interval(values_of(by_square(contestant, noise)), confidence);
+  row.seconds = median_interval(values_of(by_square(contestant, noise)), usual_confidence);
   row.minimum = nan;
   row.worst_frame = worst_frame(contestant, noise);
   std::vector<double> all;
@@ -71,23 +58,15 @@ TimeRow time_row(const SampleSet& set, const Contestant& contestant, Noise noise
 
 RatioRow ratio_row(const SampleSet& set, const Contestant& a, const Contestant& base, bool canary,
                    Noise noise) {
-  const std::vector<double> ratios = paired_log_ratios(a, base, noise);
-  return {set.key,
-          a.label,
-          base.label,
-          canary,
-          exponential(median_interval(ratios, confidence)),
-          sign_test(ratios),
-          1,
-          set.suspect};
+  const MedianInterval ratio = median_interval(paired_log_ratios(a, base, noise), usual_confidence);
+  return {set.key, a.label, base.label, canary, exponential(ratio), set.suspect};
 }
 
 // Returns the first library of the set that was timed and is right; null if there is none.
 const Contestant* library_of(const SampleSet& set, double depth_error) {
   for (const Contestant& contestant : set.contestants) {
     if (contestant.origin == record::RowOrigin::peer && !contestant.samples.empty() &&
-        !contestant.failure && !is_wrong(set, contestant) &&
-        !(worst_error(contestant) > depth_error)) {
+        is_right(set, contestant, depth_error)) {
       return &contestant;
     }
   }
@@ -101,42 +80,43 @@ void add_library_ratios(const SampleSet& set, Noise noise, double depth_error,
   const Contestant& base = library == nullptr ? set.baseline() : *library;
   for (const Contestant& contestant : set.contestants) {
     if (&contestant == &base || contestant.samples.empty()) continue;
-    const TestedRatio tested = ratio_between(set, contestant, base, noise);
-    rows.push_back(
-        {set.key, contestant.label, base.label, false, tested.ratio, tested.p, 1, set.suspect});
+    rows.push_back({set.key, contestant.label, base.label, false,
+                    ratio_between(set, contestant, base, noise), set.suspect});
   }
 }
 
-std::optional<WinnerRow> winner_row(const SampleSet& set, std::int64_t batch, Noise noise,
-                                    double depth_error) {
-  struct Entry {
-    const Contestant* contestant;
-    double ratio;  // logarithm of the ratio to the baseline
+// Adds the winner of a set and batch, or counts it as undecided.
+void add_winner(const SampleSet& set, std::int64_t batch, Noise noise, Tables& tables) {
+  const auto takes_part = [&](const Contestant& contestant) {
+    return contestant.batch == batch && !contestant.is_limit() &&
+           is_right(set, contestant, tables.depth_error);
   };
-  std::vector<Entry> entries;
-  for (const Contestant& contestant : set.contestants) {
-    if (contestant.batch != batch || is_wrong(set, contestant) || contestant.failure) continue;
-    if (worst_error(contestant) > depth_error) continue;
-    if (!set.key.narrow() && contestant.is_limit()) continue;
-    // Ratios to the baseline compare contestants without a common square.
-    const double ratio = median(paired_log_ratios(contestant, set.baseline(), noise));
-    if (!std::isnan(ratio)) entries.push_back({&contestant, ratio});
+  const Contestant* const winner = fastest(set, noise, takes_part);
+  const Contestant* const runner_up = fastest(set, noise, [&](const Contestant& contestant) {
+    return &contestant != winner && takes_part(contestant);
+  });
+  const auto timed = std::ranges::count_if(set.contestants, [&](const Contestant& contestant) {
+    return !contestant.samples.empty() && takes_part(contestant);
+  });
+  if (timed < 2) return;
+  MedianInterval ratio = {nan, nan, nan, 0};
+  if (runner_up != nullptr && !is_any_unheard(set, *winner, noise, takes_part)) {
+    ratio = if_known(ratio_between(set, *runner_up, *winner, noise));
   }
-  if (entries.size() < 2) return std::nullopt;
-  std::ranges::stable_sort(entries, {}, &Entry::ratio);
-  const Contestant& winner = *entries[0].contestant;
-  const Contestant& runner_up = *entries[1].contestant;
-  const TestedRatio tested = ratio_between(set, runner_up, winner, noise);
-  return WinnerRow{set.key,  batch, winner.label, runner_up.label, tested.ratio,
-                   tested.p, 1,     set.suspect};
+  if (std::isnan(ratio.median)) {
+    ++tables.undecided;
+  } else {
+    tables.winners.push_back({set.key, batch, winner->label, runner_up->label, ratio, set.suspect});
+  }
 }
 
 }  // namespace
 
-TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
-                          Noise noise) {
-  const LogRatio found = log_ratio(a, b, set.baseline(), noise, confidence);
-  return {exponential(found.value), found.p};
+MedianInterval ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
+                             Noise noise) {
+  const MedianInterval ratio =
+      exponential(log_ratio(a, b, set.baseline(), noise, usual_confidence));
+  return std::isnan(ratio.low) ? MedianInterval{nan, nan, nan, ratio.n} : ratio;
 }
 
 Tables make_tables(const Results& results, Noise noise, double depth_error) {
@@ -162,14 +142,8 @@ Tables make_tables(const Results& results, Noise noise, double depth_error) {
       tables.ratios.push_back(ratio_row(set, set.twin, base, true, noise));
     }
     add_library_ratios(set, noise, depth_error, tables.library_ratios);
-    for (const std::int64_t batch : batches_of(set)) {
-      if (auto row = winner_row(set, batch, noise, depth_error))
-        tables.winners.push_back(*std::move(row));
-    }
+    for (const std::int64_t batch : batches_of(set)) add_winner(set, batch, noise, tables);
   }
-  correct(tables.ratios, [](const RatioRow& row) { return !row.canary; });
-  correct(tables.library_ratios, [](const RatioRow&) { return true; });
-  correct(tables.winners, [](const WinnerRow&) { return true; });
   tables.exponents = exponent_rows(tables.times);
   tables.speed_ups = speed_up_rows(results, noise);
   tables.executors = executor_rows(results, noise);

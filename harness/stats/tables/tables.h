@@ -38,20 +38,21 @@ struct RatioRow {
   SetKey key;
   std::string label, baseline;
   bool canary = false;
-  MedianInterval ratio;           // exp of the median of paired log ratios over the squares
-  double p = 1, p_corrected = 1;  // sign test; corrected by Holm over the table, canaries apart
-  bool suspect = false;           // see SampleSet
+  MedianInterval ratio;  // exp of the median of paired log ratios over the squares
+  bool suspect = false;  // see SampleSet
 };
 
-// The fastest of the contestants of a batch that are right, against the next. A distance or depth is right if
-// it is within the stated error.
+// The fastest of the contestants of a batch that are right, against the next. There is none where
+// too few squares were left undisturbed to tell (Tables::undecided).
 struct WinnerRow {
   SetKey key;
   std::int64_t batch = -1;  // of both, see Contestant
   std::string winner, runner_up;
   MedianInterval ratio;  // ratio of the runner-up's time to the winner's
-  double p = 1, p_corrected = 1;
   bool suspect = false;
+
+  // Returns true if the two cannot be told apart.
+  bool is_tie() const { return !(ratio.low > 1); }
 };
 
 // The growth of time with the number of bodies: least squares on the logarithms of the medians.
@@ -89,6 +90,8 @@ struct AgreementRow {
   std::int64_t queries = 0, right = 0, wrong = 0, failed = 0, unanswered = 0;
   // The greatest error of a distance or depth, as a part of the pair's size; NaN if there is none.
   double worst_error = std::numeric_limits<double>::quiet_NaN();
+  // The greatest exact distance or depth of an answer on the wrong side, metres; NaN if unknown.
+  double worst_disagreement = std::numeric_limits<double>::quiet_NaN();
   bool depth_is_bound = false;
 };
 
@@ -109,7 +112,8 @@ struct WorkRow {
 };
 
 // The best of ours among the broad phases of a set, against the best of the others; only those that
-// are right count. If there is none, names are empty and numbers are NaN.
+// are right count. If there is none, names are empty and numbers are NaN. A ratio is NaN too where
+// too few squares were left undisturbed.
 struct BroadBestRow {
   SetKey key;
   struct Best {
@@ -127,16 +131,15 @@ struct BroadBestRow {
   double worst_frame;  // seconds of the longest frame of ours, see samples.h
 };
 
-// The fastest of ours among the narrow phases of a set and batch, against the others, with their errors. An
-// algorithm is right if it has no wrong answer and no distance or depth off by more than the stated
-// error.
+// The fastest of ours among the narrow phases of a set and batch, against the others, with their
+// errors. A ratio is NaN where there is no such contestant, or too few squares were left undisturbed.
 struct NarrowBestRow {
   struct Best {
     std::string label;                                          // empty if there is none
     double seconds = std::numeric_limits<double>::quiet_NaN();  // time for a query
     std::int64_t queries = 0, wrong = 0, failed = 0;            // see AgreementRow
     double worst_error = std::numeric_limits<double>::quiet_NaN();
-    MedianInterval ratio = {};  // ratio of its time to that of ours
+    MedianInterval ratio = {nan, nan, nan, 0};  // ratio of its time to that of ours
   };
   SetKey key;
   std::int64_t batch = -1;  // of all of them, see Contestant
@@ -156,6 +159,7 @@ struct Tables {
   // Ratios to a library, in sets that have one: progress of ours does not change a library.
   std::vector<RatioRow> library_ratios;
   std::vector<WinnerRow> winners;
+  std::size_t undecided = 0;  // sets and batches with contestants, and too few squares for a winner
   std::vector<ExponentRow> exponents;
   std::vector<SpeedUpRow> speed_ups;
   std::vector<ExecutorRow> executors;
@@ -165,21 +169,21 @@ struct Tables {
   std::vector<NarrowBestRow> narrow_best;
 };
 
-// The ratio of the time of a to that of b, both of the set, with the p of the hypothesis that it is
-// 1: paired over the squares that both were in, else by their ratios to the baseline in their own
-// squares.
-struct TestedRatio {
-  MedianInterval ratio;
-  double p = 1;
-};
-TestedRatio ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
-                          Noise noise);
+// Returns the ratio of the time of a to that of b, both of the set: paired over the squares that
+// both were in, else by their ratios to the baseline in their own squares. It is NaN if there is no
+// interval.
+MedianInterval ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
+                             Noise noise);
 
 Tables make_tables(const Results& results, Noise noise, double depth_error = usual_depth_error);
 
 // Returns true if a contestant found other pairs than the rest, or gave an answer that the exact
 // one contradicts.
 bool is_wrong(const SampleSet& set, const Contestant& contestant);
+
+// Returns true if a contestant answered, did not fail, is not wrong, and has no distance or depth
+// that is off by more than the stated error: only these win.
+bool is_right(const SampleSet& set, const Contestant& contestant, double depth_error);
 
 // Returns the greatest error of a distance or depth over the verified frames, as a part of the
 // pair's size; NaN if there is none.

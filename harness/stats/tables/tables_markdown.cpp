@@ -1,4 +1,4 @@
-// Writes the tables as Markdown.
+// Writes the tables as Markdown, and all tables as files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,13 +6,11 @@
 #include <cmath>
 
 #include "harness/base/table.h"
-#include "harness/stats/tables/best_markdown.h"
-#include "harness/stats/tables/tables.h"
+#include "harness/files/text_file.h"
+#include "harness/stats/tables/table_rows.h"
 
 namespace touchstone::stats {
 namespace {
-
-std::string probability(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", p); }
 
 // What is said of a depth that is an upper bound by design.
 template <class Row>
@@ -42,7 +40,7 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
                                     "minimum"};
   if (broad)
     names.insert(names.end(), {"worst frame", "build", "update", "(converting)", "find pairs"});
-  names.insert(names.end(), {"ratio", "95 % interval", "p (Holm)", "squares", "remarks"});
+  names.insert(names.end(), {"ratio", "95 % interval", "squares", "remarks"});
   base::Table table(std::move(names));
   std::string baseline;
   std::string canary;
@@ -66,10 +64,10 @@ std::string set_table(const Tables& tables, std::size_t begin, std::size_t end) 
     }
     if (const RatioRow* const ratio = ratio_of(row.label, false)) {
       baseline = ratio->baseline;
-      cells.insert(cells.end(), {base::cell(ratio->ratio.median), interval_cell(ratio->ratio),
-                                 probability(ratio->p_corrected)});
+      const MedianInterval known = if_known(ratio->ratio);
+      cells.insert(cells.end(), {base::cell(known.median), interval_cell(known)});
     } else {
-      cells.insert(cells.end(), {row.samples > 0 ? "1" : "-", "-", "-"});
+      cells.insert(cells.end(), {row.samples > 0 ? "1" : "-", "-"});
     }
     cells.push_back(std::to_string(row.seconds.n));
     cells.push_back(remark(row, tables.depth_error));
@@ -185,6 +183,67 @@ std::string work_tables(const std::vector<WorkRow>& rows) {
          all;
 }
 
+// A row needs a peer or a limit to be compared with.
+std::string broad_best_table(const std::vector<BroadBestRow>& rows) {
+  base::Table table({"input", "ours", "peer", "of Bullet and FCL", "ours, ms", "peer, ms",
+                     "peer / ours", "95 % interval", "Bullet or FCL, ms", "/ ours", "95 % interval",
+                     "ours / limit", "bytes / body", "speed-up", "growth", "worst / median"},
+                    4);
+  const auto name = [](const std::string& label) {
+    return label.empty() ? "none is right" : label;
+  };
+  for (const BroadBestRow& row : rows) {
+    if (row.peer.label.empty() && std::isnan(row.over_limit.median)) continue;
+    table.add({row.key.words(), row.ours.label, name(row.peer.label), name(row.bullet_or_fcl.label),
+               base::cell(row.ours.seconds * 1e3), base::cell(row.peer.seconds * 1e3),
+               base::cell(row.peer.ratio.median), interval_cell(row.peer.ratio),
+               base::cell(row.bullet_or_fcl.seconds * 1e3),
+               base::cell(row.bullet_or_fcl.ratio.median), interval_cell(row.bullet_or_fcl.ratio),
+               base::cell(row.over_limit.median), base::cell(row.bytes_a_body),
+               base::cell(row.speed_up.median), base::cell(row.exponent),
+               base::cell(row.worst_frame / row.ours.seconds)});
+  }
+  if (table.is_empty()) return "";
+  return "## The best of our broad phases against the best of others\n\nMilliseconds a frame; "
+         "ratios are of the other's time over that of ours. The limit is a radix sort, a gather\n"
+         "of the boxes and the writing of the pairs. Speed-up is over the fewest threads, growth "
+         "the exponent of\ntime over bodies where there are many. Worst is the longest frame of "
+         "ours, over its median.\n\n" +
+         table.markdown() + "\n";
+}
+
+std::string narrow_best_table(const std::vector<NarrowBestRow>& rows, double depth_error) {
+  base::Table table(
+      {"input", "ours", "right peer", "fastest peer", "ours, ns", "error", "right peer, ns",
+       "error", "/ ours", "95 % interval", "fastest peer, ns", "wrong", "error", "/ ours"},
+      4);
+  const auto error = [](const NarrowBestRow::Best& best) {
+    return std::isnan(best.worst_error) ? std::string("-")
+                                        : fmt::format("{:.0e}", best.worst_error);
+  };
+  const auto name = [](const NarrowBestRow::Best& best) {
+    return best.label.empty() ? "no library is right" : best.label;
+  };
+  for (const NarrowBestRow& row : rows) {
+    if (row.any_peer.label.empty()) continue;
+    table.add({row.key.words(), row.ours.label, name(row.right_peer), name(row.any_peer),
+               base::cell(row.ours.seconds * 1e9), error(row.ours),
+               base::cell(row.right_peer.seconds * 1e9), error(row.right_peer),
+               base::cell(row.right_peer.ratio.median), interval_cell(row.right_peer.ratio),
+               base::cell(row.any_peer.seconds * 1e9),
+               fmt::format("{} of {}", row.any_peer.wrong, row.any_peer.queries),
+               error(row.any_peer), base::cell(row.any_peer.ratio.median)});
+  }
+  if (table.is_empty()) return "";
+  return fmt::format(
+             "## Speed and error of the best narrow phases\n\nNanoseconds a query; ratios are of "
+             "the other's time over that of ours. Right is an algorithm\nwith no wrong answer and "
+             "no distance or depth off by more than {} of the pair's size; errors are the "
+             "greatest,\nas parts of it.\n\n",
+             depth_error) +
+         table.markdown() + "\n";
+}
+
 }  // namespace
 
 std::string tables_markdown(const Tables& tables) {
@@ -192,18 +251,22 @@ std::string tables_markdown(const Tables& tables) {
   for (const std::string& fact : tables.machine) all += fmt::format("- {}\n", fact);
   all +=
       "\nTimes are medians over squares, intervals those of the sign test at 95 %. A ratio is the "
-      "median of\npaired log ratios. p is corrected over the whole table by Holm's method. "
-      "`-`: too few samples to tell.\n\n";
-  if (!tables.winners.empty()) {
+      "median of\npaired log ratios. `-`: "
+      "fewer than six undisturbed squares, too few to tell.\n\n";
+  if (!tables.winners.empty() || tables.undecided > 0) {
     all += "## Winner against runner-up\n\n";
-    base::Table table(
-        {"input", "winner", "runner-up", "runner-up / winner", "95 % interval", "p (Holm)"}, 3);
+    base::Table table({"input", "winner", "runner-up", "runner-up / winner", "95 % interval"}, 3);
     for (const WinnerRow& row : tables.winners) {
-      table.add({row.key.words() + (row.suspect ? " (**suspect**)" : ""), row.winner, row.runner_up,
-                 base::cell(row.ratio.median), interval_cell(row.ratio),
-                 probability(row.p_corrected)});
+      const bool tie = row.is_tie();
+      table.add({row.key.words() + (row.suspect ? " (**suspect**)" : ""),
+                 tie ? row.winner + " = " + row.runner_up : row.winner, tie ? "-" : row.runner_up,
+                 base::cell(row.ratio.median), interval_cell(row.ratio)});
     }
-    all += table.markdown() + "\n";
+    if (!table.is_empty()) all += table.markdown() + "\n";
+    if (tables.undecided > 0) {
+      all += fmt::format("No winner in {} more: fewer than six undisturbed squares.\n\n",
+                         tables.undecided);
+    }
   }
   all += broad_best_table(tables.broad_best);
   all += narrow_best_table(tables.narrow_best, tables.depth_error);
@@ -274,6 +337,21 @@ std::string tables_markdown(const Tables& tables) {
     begin = end;
   }
   return all;
+}
+
+void write_tables(const Tables& tables, double band, const std::filesystem::path& folder) {
+  record::write_rows(folder / "times.csv", tables.times);
+  record::write_rows(folder / "ratios.csv", tables.ratios, band);
+  record::write_rows(folder / "library_ratios.csv", tables.library_ratios, band);
+  record::write_rows(folder / "winners.csv", tables.winners);
+  record::write_rows(folder / "exponents.csv", tables.exponents);
+  record::write_rows(folder / "speed_ups.csv", tables.speed_ups);
+  record::write_rows(folder / "executors.csv", tables.executors);
+  record::write_rows(folder / "agreement.csv", tables.agreement);
+  record::write_rows(folder / "work.csv", tables.work);
+  record::write_rows(folder / "broad_best.csv", tables.broad_best);
+  record::write_rows(folder / "narrow_best.csv", tables.narrow_best);
+  files::write_text(folder / "tables.md", tables_markdown(tables));
 }
 
 }  // namespace touchstone::stats

@@ -33,6 +33,12 @@ bool is_wrong(const SampleSet& set, const Contestant& contestant) {
   });
 }
 
+bool is_right(const SampleSet& set, const Contestant& contestant, double depth_error) {
+  return !contestant.failure && !is_wrong(set, contestant) &&
+         !(worst_error(contestant) > depth_error) &&
+         (!set.key.narrow() || agreement_row(set, contestant).has_value());
+}
+
 double worst_error(const Contestant& contestant) {
   double worst = nan;
   for (const Check& check : contestant.checks) worst = std::fmax(worst, check.worst_error);
@@ -53,6 +59,7 @@ std::optional<AgreementRow> agreement_row(const SampleSet& set, const Contestant
     row.failed += failed;
     row.right += std::max<std::int64_t>(compared - wrong, 0);
     row.worst_error = std::fmax(row.worst_error, check.worst_error);
+    row.worst_disagreement = std::fmax(row.worst_disagreement, check.worst_disagreement);
   }
   row.unanswered = std::max<std::int64_t>(row.queries - row.right - row.wrong - row.failed, 0);
   return row.queries > 0 ? std::optional(row) : std::nullopt;

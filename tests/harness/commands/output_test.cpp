@@ -105,7 +105,10 @@ TEST_F(Output, FoldersAreLookedAtBeforeTheWork) {
 
 // Both signals end the work alike, and it can be resumed.
 TEST_F(Output, SignalsEndCasesWhereNothingIsLost) {
+  folder.write("s.toml", "generator = 'uniform'\ncount = 50\nframes = 2\n");
   const std::vector<std::string> works = {
+      "run --scene " + path("s.toml") +
+          " --broad naive,uniform-grid --narrow none --seconds 100000",
       "check --narrow gjk --broad none --group gap,depth --cases 20 --seconds 100000",
       "check --narrow gjk --count 100000000", "check --axes --narrow gjk --cases 100"};
   for (const std::string& work : works) {
@@ -130,6 +133,11 @@ TEST_F(Output, SignalsEndCasesWhereNothingIsLost) {
       EXPECT_THAT(folder.read("said"),
                   HasSubstr("touchstone: interrupted; what was done until then is kept"));
       EXPECT_THAT(folder.read(name + "/machine.csv"), HasSubstr("finished,no"));
+      if (!work.starts_with("run")) continue;
+      EXPECT_THAT(folder.read("said"),
+                  testing::ContainsRegex("Stopped in the (check|samples) of block 1 of 1, s, 50 "
+                                         "bodies.*Go on: touchstone run --scene .* --resume\n"));
+      EXPECT_THAT(run_program("show " + path(name)).text, HasSubstr("Stopped in the "));
     }
   }
 }

@@ -47,6 +47,23 @@ TEST(Home, IsAFurnishedFlat) {
   EXPECT_LT(pairs, 10000u);
 }
 
+TEST(ScenesAtRest, NothingMovesAndBodiesTouch) {
+  for (const auto& [file, bodies] :
+       {std::pair{"brick_wall.toml", 201u}, std::pair{"rock_pile_at_rest.toml", 251u}}) {
+    SCOPED_TRACE(file);
+    const scene::Scene scene = scene::load_scene(datasets / file);
+    EXPECT_EQ(scene.bodies.size(), bodies);
+    EXPECT_EQ(std::ranges::count(scene.bodies, true, &scene::Body::moving), 0);
+    scene::ScenePlayer player(scene, scene::BoxKind::tight);
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      for (std::size_t j = i + 1; j < scene.size(); ++j)
+        pairs += overlap(player.boxes()[i], player.boxes()[j]);
+    }
+    EXPECT_GT(pairs, 2 * scene.size());
+  }
+}
+
 struct MadeScene {
   const char* file;
   std::size_t bodies, least_pairs, most_pairs;  // of boxes, in the first frame

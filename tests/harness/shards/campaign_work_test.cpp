@@ -4,8 +4,7 @@
 
 #include "harness/campaign/runner.h"
 #include "harness/measure/noise.h"
-#include "harness/stats/machines/across.h"
-#include "harness/stats/machines/blocks.h"
+#include "harness/stats/machines.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/shards/planned.h"
 

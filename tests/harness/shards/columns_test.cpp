@@ -3,8 +3,7 @@
 #include "harness/shards/merge.h"
 #include "harness/shards/shard_folder.h"
 #include "harness/shards/shard_plan.h"
-#include "harness/stats/machines/across.h"
-#include "harness/stats/machines/blocks.h"
+#include "harness/stats/machines.h"
 #include "tests/harness/columns_page.h"
 
 namespace touchstone {

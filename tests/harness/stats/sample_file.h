@@ -24,6 +24,7 @@ struct FakeContestant {
   std::string work = ",,,,,,,";
   std::string worst_error = {};  // the value in each of its check rows
   std::string batch = {};        // pairs of a call
+  bool noisy = false;            // true if all its samples were disturbed
 };
 
 inline const char* origin_of(const std::string& name) {
@@ -97,7 +98,7 @@ struct FakeRun {
               const std::string place = fmt::format(
                   "{},,,,,,{},sample,{},{},{},{},{},{},{},{},,,,,,,,,,", frames * 50, c.status, b,
                   process, square, round, i, frames, twin ? "1" : "",
-                  noisy                                                                ? "pressure"
+                  noisy || c.noisy                                                     ? "pressure"
                   : block.suspect && process + 1 == processes && square + 1 == squares ? "canary"
                                                                                        : "");
               if (narrow) {

@@ -77,13 +77,11 @@ TEST(MedianInterval, CoversTheMedianOfASkewedDistribution) {
   EXPECT_LT(covered, trials * 98 / 100);
 }
 
-TEST(SignTest, KnownValues) {
-  EXPECT_DOUBLE_EQ(stats::sign_test(std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, -1, -2}), 0.109375);
-  EXPECT_DOUBLE_EQ(stats::sign_test(std::vector<double>{1, 2, 3, 4, 5, 6}), 2 / 64.0);
-  EXPECT_DOUBLE_EQ(stats::sign_test(std::vector<double>{1, 2, 3, 0, 0, 4, 5, 6}), 2 / 64.0);
-  EXPECT_EQ(stats::sign_test(std::vector<double>{1, -1}), 1);
-  EXPECT_EQ(stats::sign_test(std::vector<double>{}), 1);
-  EXPECT_EQ(stats::sign_test(std::vector<double>{0, 0}), 1);
+TEST(IfKnown, NeedsSixSquaresAndAnInterval) {
+  const double nan = stats::nan;
+  EXPECT_EQ(stats::if_known({2, 1, 3, 6}).median, 2);
+  EXPECT_TRUE(std::isnan(stats::if_known({2, 1, 3, 5}).median));
+  EXPECT_TRUE(std::isnan(stats::if_known({2, nan, nan, 6}).median));
 }
 
 // Computes the same p by an enumeration of all ways to call `n` of the values a.

@@ -1,6 +1,5 @@
 // Tests of the tables of a results folder.
 #include "harness/stats/tables/tables.h"
-#include "harness/stats/summary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +45,6 @@ TEST_F(TablesOf, TimesRatiosAndWinners) {
   EXPECT_NEAR(tables.ratios[0].ratio.median, 2, 0.01);
   EXPECT_LT(tables.ratios[0].ratio.high, 2.02);
   EXPECT_GT(tables.ratios[0].ratio.low, 1.98);
-  EXPECT_LT(tables.ratios[0].p_corrected, 0.01);
   EXPECT_TRUE(tables.ratios[2].canary);
   EXPECT_NEAR(tables.ratios[2].ratio.median, 1, 0.01);
 
@@ -447,11 +445,8 @@ TEST_F(TablesOf, ADepthBeyondTheStatedErrorWinsNothing) {
   const stats::Tables strict = stats::make_tables(results, stats::Noise::left_out);
   EXPECT_EQ(strict.winners.at(0).winner, "gjk double");
   EXPECT_THAT(stats::tables_markdown(strict), HasSubstr("**off by 0.6**"));
-  EXPECT_THAT(stats::summary(results, strict, {}, "r"),
-              HasSubstr("bullet-mpr double: distance or depth off by up to 0.6 of the size"));
   const stats::Tables loose = stats::make_tables(results, stats::Noise::left_out, 0.7);
   EXPECT_EQ(loose.winners.at(0).winner, "bullet-mpr double");
-  EXPECT_THAT(stats::summary(results, loose, {}, "r"), HasSubstr("No algorithm was wrong."));
 }
 
 }  // namespace

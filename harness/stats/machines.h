@@ -3,13 +3,34 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <string>
-#include <vector>
 
 #include "harness/stats/key_columns.h"
-#include "harness/stats/tables/tables.h"
+#include "harness/stats/summary.h"
 
 namespace touchstone::stats {
+
+// A row of blocks.csv, which stands beside a raw.csv of several shards.
+struct BlockRow {
+  std::int64_t block = 0, shard = 0;
+  std::string machine;
+  std::int64_t rows = 0;
+};
+
+template <record::row_of<BlockRow> Row, class Visit>
+void columns(Row& row, Visit visit) {
+  visit("block", row.block, "Number of the block in the campaign.");
+  visit("shard", row.shard, "The shard that it was in.");
+  visit("machine", row.machine,
+        "The machine that measured it; `machines/` has its facts, and its tables where there are "
+        "several.");
+  visit("rows", row.rows, "Number of its rows in raw.csv.");
+}
+
+// Returns the machine of each block, as blocks.csv of the folder says; empty if it has no such file.
+std::map<std::int64_t, std::string> machines_of_blocks(const std::filesystem::path& folder);
 
 // A contestant's ratio to the baseline in one cell, over the machines. A cell is a set without its
 // seed.
@@ -34,9 +55,11 @@ void columns(Row& row, Visit visit) {
   visit("high", row.high, "Highest end of a machine's 95 % interval.");
 }
 
-// Returns a row for each cell and contestant that at least two machines measured, from their tables.
-std::vector<AcrossRow> across_machines(const std::vector<Tables>& of_machines);
-// Returns them as Markdown.
-std::string across_markdown(const std::vector<AcrossRow>& rows);
+// Writes the tables of each machine into FOLDER/machines/NAME (see write_tables), and across.csv and
+// across.md into the folder. Returns a text for the terminal. Throws InputError if a file cannot be
+// written.
+std::string write_machine_tables(const std::map<std::string, Results>& of_machines,
+                                 const ReportSetting& setting, double band,
+                                 const std::filesystem::path& folder);
 
 }  // namespace touchstone::stats
