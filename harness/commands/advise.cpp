@@ -13,7 +13,6 @@
 #include "harness/commands/shared_options.h"
 #include "harness/commands/trade.h"
 #include "harness/trade/advice/advice_files.h"
-#include "harness/trade/advice/advice_list.h"
 
 namespace touchstone::commands {
 namespace {
@@ -52,7 +51,7 @@ int advise(const trade::AdviceTask& task, const std::filesystem::path& folder, i
       fmt::format("\n{}: `touchstone run` measures it again\n", (folder / "advice.toml").string()));
   if (rows == nullptr) return exit_done;
   const trade::Verification verification = trade::verify(
-      problem, advice.best->point.configuration, trade::advice_draws + 1, draws, folder / "grid");
+      problem, advice.best->point.configuration, trade::verification_draw, draws, folder / "grid");
   rows->write(problem, &verification);
   print("\n" + trade::verification_text(verification));
   return verification.holds() ? exit_done : exit_measured_wrong;
@@ -113,7 +112,9 @@ void add_advise(Arguments command) {
   const Option scene =
       command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json");
   Option list = command.text("--list", options->list, "File of scenes, each with its own error");
-  command.number("--max-error", options->budget.most, "The greatest error that will do")
+  command
+      .number("--max-error", options->budget.most,
+              "The greatest error that will do, as tests have to show at 95 %")
       .not_negative()
       .show_default();
   command.flag("--no-false-negatives", options->budget.no_false_negatives,

@@ -1,4 +1,6 @@
 // touchstone report: makes a page of results and scenes that opens in a browser.
+#include "harness/commands/report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/base/error.h"
@@ -43,18 +46,6 @@ struct ReportOptions {
 // The launcher builds the page beside the programs.
 fs::path usual_page() {
   return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "page" / "page.html";
-}
-
-std::string built_page(const ReportOptions& options) {
-  const fs::path file = options.page.empty() ? usual_page() : fs::path(options.page);
-  std::ifstream in(file, std::ios::binary);
-  std::string page{std::istreambuf_iterator<char>(in), {}};
-  if (page.empty()) {
-    throw base::InputError(file.string() +
-                           ": the page is not built; `./touchstone report` builds it, for which it "
-                           "needs Node.js (Debian: nodejs, npm)");
-  }
-  return page;
 }
 
 files::OrderedJson made() {
@@ -163,7 +154,7 @@ void make_report(const ReportOptions& options) {
   if (options.results.empty() && options.scenes.empty()) {
     throw base::InputError("nothing to report; expected folders of results, or --scene SCENE");
   }
-  const std::string page = built_page(options);
+  const std::string page = built_page(options.page);
   std::vector<files::NamedFile> inputs;
   for (const std::string& scene : options.scenes) inputs.push_back({"--scene", scene});
   files::check_outputs(inputs, std::vector<files::NamedFile>{{"--out", options.out}});
@@ -179,17 +170,34 @@ void make_report(const ReportOptions& options) {
       scenes.push_back(report::recording_view(request));
     }
   }
-  const std::size_t bytes = report::write_page(options.out, page,
+  write_report(options.out, page, std::move(results), std::move(scenes));
+}
+
+}  // namespace
+
+std::string built_page(const fs::path& given) {
+  const fs::path file = given.empty() ? usual_page() : given;
+  std::ifstream in(file, std::ios::binary);
+  std::string page{std::istreambuf_iterator<char>(in), {}};
+  if (page.empty()) {
+    throw base::InputError(file.string() +
+                           ": the page is not built; `./touchstone report` builds it, for which it "
+                           "needs Node.js (Debian: nodejs, npm)");
+  }
+  return page;
+}
+
+void write_report(const fs::path& out, const std::string& page, files::OrderedJson results,
+                  files::OrderedJson scenes) {
+  const std::size_t bytes = report::write_page(out, page,
                                                {{"format", 1},
                                                 {"made", made()},
                                                 {"origins", origins()},
                                                 {"approximate", approximate()},
                                                 {"results", std::move(results)},
                                                 {"scenes", std::move(scenes)}});
-  fmt::print("{}: {:.1f} MB\n", options.out, static_cast<double>(bytes) / 1e6);
+  fmt::print("{}: {:.1f} MB\n", out.string(), static_cast<double>(bytes) / 1e6);
 }
-
-}  // namespace
 
 void add_report(Arguments command) {
   const auto options = std::make_shared<ReportOptions>();

@@ -84,7 +84,6 @@ void tell_extent(const std::string& file, std::span<const Vec3d> vertices) {
 namespace option {
 
 using Value = QueryOption::Value;
-const QueryOption id = {"--id", Value::text, "Asks the cases with this id alone"};
 const QueryOption scalar = {"--scalar",
                             Value::choice,
                             "What is calculated in (default: double; of manifolds, each that an "

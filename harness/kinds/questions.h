@@ -15,6 +15,7 @@
 
 #include "algorithms/algorithm_info.h"
 #include "algorithms/core/outcome.h"
+#include "harness/files/concave/concave_cases.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
 #include "harness/process/isolated_lines.h"
@@ -26,6 +27,7 @@ struct QueryOption {
   enum class Value : std::uint8_t {
     flag,
     text,
+    list,  // words, joined by commas in QuestionInput
     choice,
     positive,      // a number
     not_negative,  // a number
@@ -103,6 +105,8 @@ class Questions {
   // Goes on to the next part; false if there is none.
   virtual bool next() { return false; }
   virtual std::string_view unit() const = 0;  // of numbers in lines, such as "m"
+  // The pairs of resting bodies that are asked; empty for questions of other kinds.
+  virtual std::span<const files::ConcaveCase> pairs() const { return {}; }
 
   // --- who is asked ---
   virtual std::size_t contestants() const = 0;
@@ -140,7 +144,7 @@ void tell_extent(const std::string& file, std::span<const Vec3d> vertices);
 
 // Options that several kinds have.
 namespace option {
-extern const QueryOption id, scalar, tolerance, max_iterations, target, saved;
+extern const QueryOption scalar, tolerance, max_iterations, target, saved;
 }
 
 }  // namespace touchstone::kinds

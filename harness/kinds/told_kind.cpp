@@ -102,7 +102,12 @@ const Kind& told_kind(const QuestionInput& input, const std::string& word) {
     return kind == &ray_kind() ? ray_kind_at(input) : *kind;
   }
   if (input.has("--settled")) return manifold_kind();
+  if (input.has("--bodies")) return asks_concave_phases(input) ? mesh_kind() : pair_kind();
   const std::string file = input.file.string();
+  if (file.ends_with(".toml")) {
+    throw base::InputError(
+        file, 0, "is a scene; expected --bodies with two of its bodies, or a file of questions");
+  }
   if (file.ends_with(".aabbs") || scene::are_mesh_frames(input.file)) return box_kind();
   if (std::filesystem::is_directory(input.file)) return feature_kind();
   const std::string first = first_line(input.file);

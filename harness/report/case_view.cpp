@@ -6,6 +6,7 @@
 #include "algorithms/oracle/answer.h"
 #include "algorithms/registry.h"
 #include "harness/base/shell_word.h"
+#include "harness/geometry/shapes/compound.h"
 #include "harness/grade/graded_answer.h"
 #include "harness/grade/wrong.h"
 #include "harness/process/isolate.h"
@@ -128,26 +129,144 @@ OrderedJson case_view(const ListedCase& listed, const std::filesystem::path& fol
                       Subject& subject) {
   const files::Case& c = listed.c;
   const Outcome& truth = subject.truth;
-  return {{"id", c.id},
-          {"source", listed.file},
-          {"about", listed.about},
-          {"line", files::to_json(c)},
-          {"query",
-           fmt::format("./touchstone query {} --id {} --narrow all --task {} --out answers.csv",
-                       base::shell_word(from_project(folder / listed.file)), base::shell_word(c.id),
-                       to_string(subject.measure()))},
-          {"a", body_view(c.shape_a, c.pose_a)},
-          {"b", body_view(c.shape_b, c.pose_b)},
+  return {
+      {"id", c.id},
+      {"source", listed.file},
+      {"about", listed.about},
+      {"line", files::to_json(c)},
+      {"query",
+       !listed.command.empty()
+           ? listed.command
+           : fmt::format("./touchstone query {} --id {} --narrow all --task {} --out answers.csv",
+                         base::shell_word(from_project(folder / listed.file)),
+                         base::shell_word(c.id), to_string(subject.measure()))},
+      {"a", body_view(c.shape_a, c.pose_a)},
+      {"b", body_view(c.shape_b, c.pose_b)},
+      {"truth",
+       {{"answer", to_string(truth.answer)},
+        {"lower", number(truth.lower)},
+        {"upper", number(truth.upper)},
+        {"normal", triple(truth.normal)}}},
+      {"proof", proof_view(truth)},
+      {"answers", std::move(subject.answers)}};
+}
+
+}  // namespace
+
+namespace {
+
+OrderedJson concave_body_view(const ConcaveBody& body, const Pose& pose) {
+  if (!body.mesh && body.parts.size() == 1 && body.surfaces.empty()) {
+    const ConvexPart& part = body.parts[0];
+    return body_view(part.shape, {pose.rotation * part.pose.rotation, pose(part.pose.translation)});
+  }
+  OrderedJson view = body_view(Shape{}, pose);
+  view["shape"] = mesh_view(
+      body.mesh ? geometry::Mesh{.vertices = body.mesh->vertices, .triangles = body.mesh->triangles}
+                : geometry::surface_of(body));
+  return view;
+}
+
+Outcome solve_concave(const ConcaveEntry& entry, Precision scalar, ConcaveTask task,
+                      const files::ConcaveCase& c) {
+  const ConcaveSettings settings = {
+      .scalar = scalar,
+      .mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make,
+      .narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); }};
+  const std::vector<ConcaveBody> bodies = {c.a, c.b};
+  const std::unique_ptr<ConcavePhase> phase = entry.make(settings);
+  phase->bind(bodies);
+  Outcome outcome;
+  std::vector<IndexPair> parts;
+  phase->solve(task, {0, c.pose_a}, {1, c.pose_b}, outcome, parts);
+  return outcome;
+}
+
+OrderedJson concave_pair_view(const AskedPair& pair, double time_limit) {
+  struct Asked {
+    const ConcaveEntry* entry;
+    Precision scalar;
+    ConcaveTask task;
+  };
+  std::vector<Asked> asked;
+  for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
+    const bool takes =
+        is_built(entry.info) && (entry.supports == nullptr || entry.supports(pair.c.a, pair.c.b));
+    for (const Precision scalar : {Precision::float64, Precision::float32}) {
+      for (const ConcaveTask task : {ConcaveTask::distance, ConcaveTask::intersect}) {
+        if (!takes || !offers(entry, task, scalar)) continue;
+        asked.push_back({&entry, scalar, task});
+        break;
+      }
+    }
+  }
+  const process::IsolationLimits limits = {.item_seconds = time_limit, .failures = 10};
+  const auto solved = process::isolated_answers<Outcome>(asked.size(), limits, [&] {
+    return [&](std::size_t i) {
+      return solve_concave(*asked[i].entry, asked[i].scalar, asked[i].task, pair.c);
+    };
+  });
+  Outcome truth;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (asked[i].entry->info.origin == Origin::oracle) truth = solved.answers[i];
+  }
+  const bool touches = truth.answer != Answer::separated;
+  OrderedJson answers = OrderedJson::array();
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const Outcome& outcome = solved.answers[i];
+    const bool is_known = outcome.answer != Answer::unknown && truth.answer != Answer::unknown;
+    const bool is_wrong = is_known && (outcome.answer != Answer::separated) != touches;
+    answers.push_back(
+        {{"algorithm", asked[i].entry->info.name},
+         {"origin", to_string(asked[i].entry->info.origin)},
+         {"scalar", to_string(asked[i].scalar)},
+         {"task", asked[i].task == ConcaveTask::distance ? "distance" : "intersect"},
+         {"answer", to_string(outcome.answer)},
+         {"status", to_string(outcome.status)},
+         {"distance", number(outcome.distance)},
+         {"lower", number(outcome.lower)},
+         {"upper", number(outcome.upper)},
+         {"normal", triple(outcome.normal)},
+         {"witness_a", triple(outcome.witness_a)},
+         {"witness_b", triple(outcome.witness_b)},
+         {"grade", is_wrong   ? "silent"
+                   : is_known ? "right"
+                              : "honest"},
+         {"why", is_wrong ? fmt::format("the exact answer is {}", to_string(truth.answer)) : ""}});
+  }
+  return {{"id", pair.c.id},
+          {"source", pair.source},
+          {"about", pair.source},
+          {"line", files::to_json(pair.c)},
+          {"query", pair.command},
+          {"a", concave_body_view(pair.c.a, pair.c.pose_a)},
+          {"b", concave_body_view(pair.c.b, pair.c.pose_b)},
           {"truth",
            {{"answer", to_string(truth.answer)},
             {"lower", number(truth.lower)},
             {"upper", number(truth.upper)},
             {"normal", triple(truth.normal)}}},
           {"proof", proof_view(truth)},
-          {"answers", std::move(subject.answers)}};
+          {"answers", std::move(answers)}};
 }
 
 }  // namespace
+
+files::OrderedJson pair_views(const std::vector<AskedPair>& pairs, double time_limit) {
+  OrderedJson views = OrderedJson::array();
+  for (const AskedPair& pair : pairs) {
+    if (!pair.c.is_convex) {
+      views.push_back(concave_pair_view(pair, time_limit));
+      continue;
+    }
+    const ListedCase listed = {.c = files::convex_case(pair.c),
+                               .file = pair.source,
+                               .about = pair.source,
+                               .command = pair.command};
+    for (OrderedJson& view : case_views({listed}, {}, time_limit)) views.push_back(std::move(view));
+  }
+  return views;
+}
 
 std::vector<ListedCase> listed_cases(const std::filesystem::path& folder, const std::string& file) {
   std::vector<ListedCase> cases;

@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "harness/files/cases.h"
+#include "harness/files/concave/concave_cases.h"
 #include "harness/files/json_line.h"
 
 namespace touchstone::report {
 
 struct ListedCase {
   files::Case c;
-  std::string file;   // relative to the results folder
-  std::string about;  // why the file lists it; the file's name if it does not say
+  std::string file;          // relative to the results folder
+  std::string about;         // why the file lists it; the file's name if it does not say
+  std::string command = {};  // that asks about it again; empty: by its id in the file
 };
 
 // Reads the cases of a file in the results folder.
@@ -24,5 +26,16 @@ std::vector<ListedCase> listed_cases(const std::filesystem::path& folder, const 
 // are the oracle's.
 files::OrderedJson case_views(const std::vector<ListedCase>& cases,
                               const std::filesystem::path& folder, double time_limit);
+
+// A pair of any bodies that somebody asks about.
+struct AskedPair {
+  files::ConcaveCase c;
+  std::string source;   // the file's name
+  std::string command;  // that asks about it again
+};
+
+// The same for these, in their order. Pairs with a body that is not convex go to concave phases, and answers about them
+// are compared by their side of contact alone.
+files::OrderedJson pair_views(const std::vector<AskedPair>& pairs, double time_limit);
 
 }  // namespace touchstone::report

@@ -34,7 +34,8 @@ struct GridPoints {
 // only those that take some pair. Combinations are left out if a body cannot be represented so, if
 // no narrow phase of the chain takes some pair, if one of them does not have the scalar, if there
 // is no narrow phase although a number is asked for or the scene lists its pairs, or if they equal
-// another. Concave phases are left out if no body has a mesh, and for tasks that they do not have.
+// another. Concave phases are left out if no body has a mesh, and for tasks that they do not have; narrow phases
+// where a mesh stays as it is given.
 GridPoints expand(std::span<const TradeGrid> grids, const SceneFrames& frames,
                   StandInLibrary& library, Task task);
 

@@ -1,17 +1,167 @@
-// Times a trade's points with the measuring loop.
+// Times a trade's points with the measuring loop: what a sample plays, and the medians and intervals of the rounds.
 #include "harness/trade/point_times.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory>
 #include <numeric>
+#include <vector>
 
 #include "harness/base/clock.h"
-#include "harness/trade/point_sampler.h"
-#include "harness/trade/point_statistics.h"
+#include "harness/base/hash.h"
+#include "harness/measure/sampler.h"
+#include "harness/stats/statistics.h"
+#include "harness/trade/evaluation.h"
 
 namespace touchstone::trade {
 namespace {
+
+constexpr std::size_t least_values = 6;  // the smallest number for an interval of 95 %
+
+// Frames are played in order and again and again. They begin at frame 0, which belongs to no
+// sample; if the scene has no other frame, each of its samples begins anew. The durations are the
+// stages of the pipeline.
+class PointSampler final : public measure::Sampler {
+ public:
+  // The frames outlive it.
+  PointSampler(const SceneFrames& frames, const TradePoint& point, Task task, int threads,
+               ExecutorKind executor);
+
+  measure::SampleReply sample(const measure::SampleRequest& request) override;
+
+ private:
+  void play_up_to(std::size_t frame);
+
+  const SceneFrames* frames_;
+  TradePoint point_;
+  Executor executor_;
+  FramePipeline pipeline_;
+  bool started_ = false;
+};
+
+PointSampler::PointSampler(const SceneFrames& frames, const TradePoint& point, Task task,
+                           int threads, ExecutorKind executor)
+    : frames_(&frames),
+      point_(point),
+      executor_(threads, Pinning::one_a_thread, executor),
+      pipeline_(frames, *point_.stand_ins, point_.configuration, task, executor_) {}
+
+void PointSampler::play_up_to(std::size_t frame) {
+  if (!started_ || pipeline_.frame() > frame) pipeline_.start(0);
+  started_ = true;
+  while (pipeline_.frame() < frame) pipeline_.advance();
+}
+
+measure::SampleReply PointSampler::sample(const measure::SampleRequest& request) {
+  measure::SampleReply reply;
+  reply.contacts = 0;
+  std::size_t frame = request.frame;
+  for (std::uint32_t i = 0; i < request.frames; ++i) {
+    if (frame == frames_->frames.size()) frame = frames_->is_static() ? 0 : 1;
+    if (frames_->is_static()) {
+      pipeline_.start(0);
+    } else {
+      play_up_to(frame - 1);
+      pipeline_.advance();
+    }
+    ++frame;
+    for (std::size_t k = 0; k < stage_names.size(); ++k) {
+      reply.durations.add(stage_names[k], pipeline_.seconds()[k]);
+    }
+    reply.pairs += static_cast<std::int64_t>(pipeline_.pairs().size());
+    reply.pair_hash += base::pair_hash(pipeline_.pairs());
+    reply.contacts += std::ranges::count_if(pipeline_.answers(), [](const PairAnswer& answer) {
+      return grade::is_contact(answer.answer);
+    });
+  }
+  return reply;
+}
+
+// Contestant i of the plan is point i; point 0 is the baseline, and the last contestant is its
+// control.
+class PointStatistics {
+ public:
+  explicit PointStatistics(std::size_t points) : ratios_(points + 1), stages_(points) {}
+
+  void add(const measure::Round& round);
+  // Fills in the times of points that were not lost.
+  void summarise(PointTimes& times) const;
+
+ private:
+  // Values of quiet rounds, and of rounds that other work disturbed.
+  struct Values {
+    std::vector<double> quiet, noisy;
+    std::vector<double> chosen() const;
+  };
+
+  Values baseline_;             // seconds a frame
+  std::vector<Values> ratios_;  // for each contestant: logarithms of its ratios to the baseline
+  std::vector<std::array<std::vector<double>, stage_names.size()>> stages_;
+};
+
+// Returns the values of quiet rounds if they are enough for an interval, else those of all rounds.
+std::vector<double> PointStatistics::Values::chosen() const {
+  std::vector<double> values = quiet;
+  if (quiet.size() < least_values) values.insert(values.end(), noisy.begin(), noisy.end());
+  return values;
+}
+
+void PointStatistics::add(const measure::Round& round) {
+  const auto is_baseline = [](const measure::Sample& sample) {
+    return sample.contestant == 0 && !sample.loss;
+  };
+  const auto baseline = std::ranges::find_if(round.samples, is_baseline);
+  if (baseline == round.samples.end()) return;
+  const auto add = [&](Values& values, double value) {
+    (round.noise.empty() ? values.quiet : values.noisy).push_back(value);
+  };
+  const double frames = round.request.frames;
+  const double unit = baseline->reply.durations.sum() / frames;
+  for (const measure::Sample& sample : round.samples) {
+    if (sample.loss) continue;
+    const double seconds = sample.reply.durations.sum() / frames;
+    if (sample.contestant == 0) {
+      add(baseline_, seconds);
+    } else {
+      add(ratios_[sample.contestant], std::log(seconds / unit));
+    }
+    if (sample.contestant == stages_.size()) continue;  // it is the control
+    for (std::size_t k = 0; k < stage_names.size(); ++k) {
+      stages_[sample.contestant][k].push_back(sample.reply.durations.of(stage_names[k]) / frames);
+    }
+  }
+}
+
+void PointStatistics::summarise(PointTimes& times) const {
+  const std::vector<double> baseline = baseline_.chosen();
+  const double unit = stats::median(baseline);
+  for (std::size_t i = 0; i < times.points.size(); ++i) {
+    TimedPoint& point = times.points[i];
+    for (std::size_t k = 0; k < stage_names.size(); ++k) {
+      if (!stages_[i][k].empty()) point.stages[k] = stats::median(stages_[i][k]);
+    }
+    if (i == 0) {
+      const stats::MedianInterval interval = stats::median_interval(baseline, 0.95);
+      point.rounds = static_cast<std::int64_t>(baseline.size());
+      point.seconds = interval.median;
+      point.low = interval.low;
+      point.high = interval.high;
+      continue;
+    }
+    const std::vector<double> ratios = ratios_[i].chosen();
+    point.rounds = static_cast<std::int64_t>(ratios.size());
+    if (ratios.empty() || !point.ok()) continue;
+    const stats::MedianInterval interval = stats::exponential(stats::median_interval(ratios, 0.95));
+    point.seconds = unit * interval.median;
+    point.low = unit * interval.low;
+    point.high = unit * interval.high;
+  }
+  const std::vector<double> control = ratios_.back().chosen();
+  if (!control.empty()) times.control = std::exp(stats::median(control));
+}
 
 constexpr std::size_t others_a_set = 7;
 constexpr std::size_t most_rounds = 6;  // rounds of a square in one process

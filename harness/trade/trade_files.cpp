@@ -9,7 +9,6 @@
 #include "harness/base/table.h"
 #include "harness/files/text_file.h"
 #include "harness/record/machine.h"
-#include "harness/trade/trade_rows.h"
 
 namespace touchstone::trade {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "harness/record/result_folder.h"
 #include "harness/scene/scene.h"
-#include "harness/trade/front.h"
+#include "harness/trade/evaluation.h"
 #include "harness/trade/grid.h"
 
 namespace touchstone::trade {

@@ -10,7 +10,7 @@
 #include "harness/files/text_file.h"
 #include "harness/kinds/selection.h"
 #include "harness/stats/cells/cell_rows.h"
-#include "harness/trade/front.h"
+#include "harness/trade/evaluation.h"
 
 namespace touchstone::cells {
 namespace {

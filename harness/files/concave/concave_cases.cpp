@@ -3,11 +3,13 @@
 
 #include "harness/files/concave/concave_json.h"
 #include "harness/files/concave/key_warnings.h"
+#include "harness/files/motion/case_json.h"
 
 namespace touchstone::files {
 namespace {
 
 bool names_convex(const JsonNode& body, const ConcaveBody& read) {
+  if (names_mesh(body)) return !read.mesh && read.parts.size() == 1;
   const JsonNode shape = body.at("shape", "");
   if (is_mesh_file(shape)) return !read.mesh && read.parts.size() == 1;
   const std::string& type = shape.at("type", "a shape's name").text("a shape's name");
@@ -17,10 +19,10 @@ bool names_convex(const JsonNode& body, const ConcaveBody& read) {
 }  // namespace
 
 ConcaveCase read_concave_case(const JsonNode& line, MeshFiles* files) {
-  line.as_object("a case: an object with \"id\", \"a\" and \"b\"");
+  line.as_object("a case: an object with \"a\" and \"b\"");
   ConcaveCase c;
   c.line = line.line();
-  c.id = line.at("id", "a string").text("a string");
+  c.id = read_id(line);
   const JsonNode a = line.at("a", "the first body"), b = line.at("b", "the second body");
   c.a = read_concave_body(a, c.pose_a, files);
   c.b = read_concave_body(b, c.pose_b, files);

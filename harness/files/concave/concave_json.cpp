@@ -58,6 +58,10 @@ void add_parts(const JsonNode& compound, std::vector<Pose>& around, MeshFiles* f
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonNode node = list[i];
     node.as_object("a part: an object with a shape and its place");
+    if (files != nullptr && names_mesh(node)) {
+      add_file(files->body(node), read_pose(node), around, body);
+      continue;
+    }
     const JsonNode shape =
         node.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
     if (files != nullptr && is_mesh_file(shape)) {
@@ -154,6 +158,10 @@ OrderedJson mesh_to_json(const TriangleMesh& mesh) {
 
 ConcaveBody read_concave_body(const JsonNode& body, Pose& pose, MeshFiles* files) {
   body.as_object("an object with a shape and its pose");
+  if (files != nullptr && names_mesh(body)) {
+    pose = read_pose(body);
+    return files->body(body);
+  }
   const JsonNode node = body.at("shape", "an object, such as {\"type\":\"sphere\",\"radius\":1}");
   ConcaveBody read;
   if (files != nullptr && is_mesh_file(node)) {

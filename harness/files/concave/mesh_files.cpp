@@ -42,8 +42,16 @@ bool is_mesh_file(const JsonNode& shape) {
   return shape.value().is_object() && shape.has("mesh") && !shape.has("type");
 }
 
+bool names_mesh(const JsonNode& body) {
+  if (!body.value().is_object() || !body.has("mesh")) return false;
+  if (body.has("shape")) body.fail("\"mesh\" is given beside \"shape\"; expected one of the two");
+  return true;
+}
+
 const ConcaveBody& MeshFiles::body(const JsonNode& shape) {
-  const auto [known, is_new] = known_.try_emplace(shape.value().dump(), all_.size());
+  Json said;
+  for (const char* key : {"mesh", "scale", "as"}) said[key] = shape.value().value(key, Json());
+  const auto [known, is_new] = known_.try_emplace(said.dump(), all_.size());
   if (!is_new) return *all_[known->second].body;
   constexpr std::string_view expected = "an OBJ, OFF, STL or PLY file";
   const JsonNode node = shape.at("mesh", expected);

@@ -14,6 +14,8 @@ namespace touchstone::files {
 
 // True for {"mesh":"FILE"}, a shape that is in a file.
 bool is_mesh_file(const JsonNode& shape);
+// True for a body that has these keys itself, as in scenes, in place of a shape. Throws InputError if it has both.
+bool names_mesh(const JsonNode& body);
 
 // Reads the meshes that the shapes of one file of cases name, each once:
 //     {"mesh": "a.obj", "scale": 1 or [1,1,1], "as": "surface", "solid", "hull" or "compound"}
@@ -27,6 +29,7 @@ class MeshFiles {
 
   // Throws InputError for a file that is not there or no mesh, one without triangles that is not a hull, a solid that
   // is open, and a scale that is not positive or leaves the range of doubles.
+  // `shape` may also be a body that names_mesh.
   const ConcaveBody& body(const JsonNode& shape);
   // What was read, each mesh at its scale, in order.
   const std::vector<Read>& all() const { return all_; }

@@ -6,6 +6,9 @@
 
 namespace touchstone::files {
 
+// The id of a case; the number of its line if it has none.
+std::string read_id(const JsonNode& line);
+
 // Both throw InputError as described at read_cases.
 void read_case(const JsonNode& line, Case& c);
 CastCase read_cast_case(const JsonNode& line);

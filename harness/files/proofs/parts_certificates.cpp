@@ -95,6 +95,7 @@ std::uint64_t read_count(const JsonNode& node) {
 StoredPartsCertificate read_stored(const JsonNode& line) {
   line.as_object("a certificate: an object with \"id\", \"a\", \"b\", \"answer\" and its proof");
   StoredPartsCertificate stored{read_concave_case(line), {}};
+  line.at("id", "a string");  // a proof names its case
   PartsCertificate& certificate = stored.certificate;
   certificate.claim =
       read_name(line.at("claim", "a claim"), names_of_claims, "intersect, distance or contacts");

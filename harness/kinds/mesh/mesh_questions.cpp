@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,7 +20,6 @@
 #include "harness/kinds/answers_of.h"
 #include "harness/kinds/mesh/mesh_proofs.h"
 #include "harness/kinds/pair/pair_cases.h"
-#include "harness/kinds/pair/pair_rows.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::kinds {
@@ -99,9 +99,12 @@ class MeshQuestions final : public AnswersOf<ConcaveEntry, MeshReply> {
   std::string label(std::size_t i) const override { return fmt::format("case '{}'", cases_[i].id); }
   std::vector<files::NamedFile> inputs() const override { return {{"FILE", input_.file}}; }
   std::vector<files::NamedFile> outputs() const override {
-    return {{"--pairs", input_.text("--pairs")}, {"--contacts", input_.text("--contacts")}};
+    return {{"--pairs", input_.text("--pairs")},
+            {"--contacts", input_.text("--contacts")},
+            {"--page", input_.text("--page")}};
   }
   std::string_view unit() const override { return "m"; }
+  std::span<const files::ConcaveCase> pairs() const override { return cases_; }
   std::vector<std::string> of_other_scalar() const override {
     std::vector<std::string> names;
     for (const Asked& asked : asked_) {
@@ -162,6 +165,10 @@ class MeshQuestions final : public AnswersOf<ConcaveEntry, MeshReply> {
     const MeshReply& given = answer(i, contestant);
     ShownAnswer shown = shown_outcome(given.outcome);
     shown.status = given.status;
+    if (given.outcome.answer == Answer::overlapping) shown.more = "(no depth)";
+    if (given.outcome.answer == Answer::separated && std::isnan(shown.number)) {
+      shown.more = "(no distance)";
+    }
     if (counts()) shown.more = fmt::format("{} pairs of parts", given.pair_count);
     return shown;
   }
@@ -307,8 +314,8 @@ class MeshQuestions final : public AnswersOf<ConcaveEntry, MeshReply> {
 
 std::vector<QueryOption> mesh_options() {
   using Value = QueryOption::Value;
-  return {
-      option::id,
+  std::vector<QueryOption> options = pair_case_options();
+  const std::vector<QueryOption> further = {
       option::scalar,
       option::tolerance,
       option::max_iterations,
@@ -323,6 +330,8 @@ std::vector<QueryOption> mesh_options() {
       {"--mid", Value::text, "The mid-phase that finds pairs of parts (default: wide-bvh)"},
       {"--parts", Value::text, "The narrow phase for pairs of convex parts (default: certified)"},
       option::saved};
+  options.insert(options.end(), further.begin(), further.end());
+  return options;
 }
 
 std::unique_ptr<Questions> read_mesh_questions(const QuestionInput& input) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,6 @@
 #include "harness/kinds/mesh/mesh_proofs.h"
 #include "harness/kinds/mesh/mesh_questions.h"
 #include "harness/kinds/pair/pair_cases.h"
-#include "harness/kinds/pair/pair_rows.h"
 #include "harness/process/queries/solve_case.h"
 
 namespace touchstone::kinds {
@@ -62,7 +62,11 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
   std::size_t size() const override { return cases_.size(); }
   std::string label(std::size_t i) const override { return fmt::format("case '{}'", cases_[i].id); }
   std::vector<files::NamedFile> inputs() const override { return {{"FILE", input_.file}}; }
+  std::vector<files::NamedFile> outputs() const override {
+    return {{"--page", input_.text("--page")}};
+  }
   std::string_view unit() const override { return "m"; }
+  std::span<const files::ConcaveCase> pairs() const override { return named_; }
   std::vector<std::string> of_other_scalar() const override {
     std::vector<std::string> names;
     for (const Asked& asked : asked_) {
@@ -184,8 +188,8 @@ class PairKind final : public AskedOnly {
 
 std::vector<QueryOption> pair_options() {
   using Value = QueryOption::Value;
-  return {
-      option::id,
+  std::vector<QueryOption> options = pair_case_options();
+  const std::vector<QueryOption> further = {
       option::scalar,
       option::tolerance,
       {.name = "--duality-gap",
@@ -195,6 +199,8 @@ std::vector<QueryOption> pair_options() {
       {"--margin", Value::not_negative, "Bodies further apart than this get no distance (metres)"},
       option::max_iterations,
       option::saved};
+  options.insert(options.end(), further.begin(), further.end());
+  return options;
 }
 
 std::unique_ptr<Questions> read_pair_questions(const QuestionInput& input) {

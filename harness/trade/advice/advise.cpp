@@ -6,22 +6,28 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <span>
+#include <vector>
 
 #include "harness/base/clock.h"
 
 namespace touchstone::trade {
 namespace {
 
-constexpr double truth_share = 0.15;  // share of the seconds; held-out scenes get as much again
+constexpr double truth_share = 0.15;  // share of the seconds
 constexpr std::size_t frames_at_first = 2, most_frames = 8;
 constexpr std::size_t finalists = 4;
 constexpr double hopeless = 4;  // multiples of the quickest configuration's time, by one reading
 constexpr double first_search = 0.6;  // share of the seconds left, if more is to be tried
-constexpr double least_search = 0.3;  // share of all seconds, however many are spent before
-// share of a search's seconds, for the search of the next better
-constexpr double enough_for_better = 0.3;
+// Shares of all seconds: of the search, of a step of it however many are spent before, of tests on held-out scenes, of
+// the search of the next better and of the rival, and of the last timing, of all that are in the table together.
+constexpr double search_share = 0.6, least_search = 0.15, test_share = 0.25, better_share = 0.15,
+                 rival_share = 0.1, table_share = 0.15;
+
+// However few seconds there are, tests may take so many, for a test of a few pairs is none.
+constexpr double least_test_seconds = 5;
 
 class Search {
  public:
@@ -42,13 +48,18 @@ class Search {
     advice_.configurations = all_.size();
     advice_.within_budget = candidates_.size();
     choose(ranked);
-    if (advice_.best) find_next_better();
+    count_libraries();
+    if (best_) {
+      find_next_better();
+      find_rival();
+      time_together();
+    }
     advice_.hulls_built = problem_.scene.library.hulls();
     return std::move(advice_);
   }
 
  private:
-  double seconds_left() const { return problem_.request.seconds - watch_.seconds(); }
+  double seconds_left() const { return search_share * problem_.request.seconds - watch_.seconds(); }
 
   std::vector<TradeGrid> usual_grids() {
     std::vector<TradeGrid> grids = default_grids(
@@ -99,25 +110,88 @@ class Search {
     return again;
   }
 
+  enum class Verdict : std::uint8_t { right, wrong, unknown };
+  struct Test {
+    Verdict verdict = Verdict::unknown;
+    std::vector<HeldOutGrade> grades;
+    std::vector<Evidence> evidence;
+  };
+
   void choose(std::span<const std::size_t> ranked) {
     if (ranked.empty()) return;
-    HeldOutScenes elsewhere(problem_.request, problem_.representing, 1, advice_draws,
-                            truth_share * problem_.request.seconds / advice_draws);
-    advice_.held_out_on = elsewhere.name();
+    const base::Stopwatch watch;
+    const double seconds = std::max(least_test_seconds, test_share * problem_.request.seconds);
+    elsewhere_.emplace(problem_.request, problem_.representing, 1, advice_draws,
+                       seconds / 2 / advice_draws);
+    const auto keep = [&](Test& test) {
+      advice_.held_out = std::move(test.grades);
+      advice_.evidence = std::move(test.evidence);
+      advice_.held_out_on = elsewhere_->name();
+    };
     for (const std::size_t i : ranked) {
       if (!std::isfinite(all_[i].timed.seconds)) continue;
-      advice_.held_out = elsewhere.grade(all_[i].point.configuration, problem_.budget);
-      if (all_within(advice_.held_out)) {
+      // Without a contact nothing shows that none is missed.
+      const bool has_contacts = all_[i].evaluation.errors.contacts > 0;
+      if (!has_contacts && can_miss(all_[i].point.configuration.representations)) continue;
+      Test test = tested(i, watch, seconds);
+      if (test.verdict == Verdict::right) {
+        best_ = i;
         advice_.best = all_[i];
-        return;
+        advice_.untested.reset();
+        return keep(test);
       }
-      problem_.said(all_[i].point.configuration.name() + " is over the budget on " +
-                    elsewhere.name() + ", and dropped");
+      if (test.verdict == Verdict::wrong) {
+        problem_.said(all_[i].point.configuration.name() + " is over the budget on " +
+                      elsewhere_->name() + ", or may miss contacts, and dropped");
+        continue;
+      }
+      const bool is_flawless = std::ranges::all_of(
+          test.evidence, [](const Evidence& evidence) { return evidence.wrong == 0; });
+      if (!advice_.untested) {
+        advice_.untested = all_[i];
+        keep(test);
+      }
+      if (is_flawless) return;  // the same pairs show no more of another
+    }
+  }
+
+  // Tests a configuration on held-out scenes, and draws more of them as long as they do not decide and there is time.
+  Test tested(std::size_t i, const base::Stopwatch& watch, double seconds) {
+    const TradeOutcome& outcome = all_[i];
+    const ErrorMeasure measure = problem_.request.measure;
+    const bool is_share =
+        measure == ErrorMeasure::verdicts || measure == ErrorMeasure::false_negatives;
+    Test test;
+    for (;;) {
+      const auto more =
+          elsewhere_->grade(outcome.point.configuration, problem_.budget, test.grades.size());
+      test.grades.insert(test.grades.end(), more.begin(), more.end());
+      Evaluation sum = outcome.evaluation;
+      if (!elsewhere_->empty()) sum.errors = sum_of(test.grades);
+      test.evidence = evidence_for(problem_.budget, measure, sum.errors);
+      const bool has_failed = std::ranges::any_of(
+          test.grades, [](const HeldOutGrade& grade) { return std::isnan(grade.error); });
+      const bool is_within = is_share ? meets(problem_.budget, measure, sum, outcome.representation)
+                                      : all_within(test.grades);
+      if (has_failed || !is_within) {
+        test.verdict = Verdict::wrong;
+        return test;
+      }
+      if (std::ranges::all_of(test.evidence, &Evidence::holds)) {
+        const bool is_blind =
+            sum.errors.contacts == 0 && can_miss(outcome.point.configuration.representations);
+        test.verdict = is_blind ? Verdict::wrong : Verdict::right;
+        return test;
+      }
+      const double left = seconds - watch.seconds();
+      const auto drawn = static_cast<int>(elsewhere_->size());
+      if (drawn == 0 || left <= 0 || !elsewhere_->draw(drawn, left)) return test;
     }
   }
 
   bool within(const TradeOutcome& outcome) const {
-    return meets(problem_.budget, problem_.request.measure, outcome.evaluation,
+    return may_stand(problem_.budget, outcome.point.configuration.representations) &&
+           meets(problem_.budget, problem_.request.measure, outcome.evaluation,
                  outcome.representation);
   }
 
@@ -196,14 +270,49 @@ class Search {
   void find_next_better() {
     std::vector<std::size_t> better;
     for (const std::size_t i : candidates_) {
-      if (all_[i].error < advice_.best->error) better.push_back(i);
+      if (all_[i].error < all_[*best_].error) better.push_back(i);
     }
     if (better.empty()) return;
-    const double control = advice_.control;
-    const std::vector<std::size_t> ranked =
-        halve(better, enough_for_better * problem_.request.seconds);
-    if (all_[ranked.front()].ok()) advice_.next_better = all_[ranked.front()];
-    advice_.control = control;
+    const std::size_t first = halve(better, better_share * problem_.request.seconds).front();
+    if (all_[first].ok()) next_better_ = first;
+  }
+
+  void count_libraries() {
+    for (const TradeOutcome& outcome : all_) {
+      if (!uses_library(outcome.point.configuration)) continue;
+      ++advice_.with_library;
+      // The condition is true for a first error too, which is compared with none (NaN).
+      const bool is_less = !(advice_.least_library_error <= outcome.error);
+      if (outcome.evaluation.ok() && is_less) advice_.least_library_error = outcome.error;
+    }
+  }
+
+  void find_rival() {
+    const bool of_library = !uses_library(all_[*best_].point.configuration);
+    std::vector<std::size_t> others;
+    for (const std::size_t i : candidates_) {
+      if (uses_library(all_[i].point.configuration) == of_library) others.push_back(i);
+    }
+    if (others.empty()) return;
+    const base::Stopwatch watch;
+    for (const std::size_t i : halve(others, rival_share * problem_.request.seconds)) {
+      if (!std::isfinite(all_[i].timed.seconds)) continue;
+      if (tested(i, watch, 0).verdict == Verdict::wrong) continue;
+      rival_ = i;
+      return;
+    }
+  }
+
+  // The times of a table come from the same rounds.
+  void time_together() {
+    std::vector<std::size_t> members = {*best_};
+    for (const auto& other : {next_better_, rival_}) {
+      if (other && std::ranges::find(members, *other) == members.end()) members.push_back(*other);
+    }
+    if (members.size() > 1) time(members, table_share * problem_.request.seconds, 3);
+    advice_.best = all_[*best_];
+    if (next_better_) advice_.next_better = all_[*next_better_];
+    if (rival_) advice_.rival = all_[*rival_];
   }
 
   const AdviceProblem& problem_;
@@ -212,10 +321,20 @@ class Search {
   std::set<std::string> names_;          // the names of all configurations tried
   std::vector<std::size_t> candidates_;  // indices of those within the budget
   std::vector<FrameTruth> truth_;
+  std::optional<HeldOutScenes> elsewhere_;
+  std::optional<std::size_t> best_, next_better_, rival_;  // indices
   Advice advice_;
 };
 
 }  // namespace
+
+bool uses_library(const Configuration& configuration) {
+  const auto is_library = [](const auto* entry) {
+    return entry != nullptr && entry->info.origin == Origin::peer;
+  };
+  return is_library(configuration.broad) || is_library(configuration.concave) ||
+         std::ranges::any_of(configuration.narrow, is_library);
+}
 
 Advice advise(const AdviceProblem& problem) { return Search(problem).run(); }
 

@@ -45,7 +45,8 @@ class Verifier {
 
  private:
   bool within(const TradeOutcome& outcome) const {
-    return meets(problem_.budget, problem_.request.measure, outcome.evaluation,
+    return may_stand(problem_.budget, outcome.point.configuration.representations) &&
+           meets(problem_.budget, problem_.request.measure, outcome.evaluation,
                  outcome.representation);
   }
 

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "harness/stats/statistics.h"
-#include "harness/trade/advice/advice_problem.h"
-#include "harness/trade/advice/held_out.h"
+#include "harness/trade/advice/budget.h"
 
 namespace touchstone::trade {
 
@@ -45,7 +44,7 @@ struct Verification {
 // Measures the request's grids into that folder, as `touchstone advise --front` does; without grids it takes
 // those of default_grids and also represents each kind of bodies by itself. Then it times the
 // choice interleaved with the fastest configurations within the budget, for longer if the interval
-// does not decide. The held-out scenes are `draws` of held_out.h from `first_draw` on, for the
+// does not decide. The held-out scenes are `draws` of budget.h from `first_draw` on, for the
 // choice and its rivals. It takes about twice the request's seconds.
 Verification verify(const AdviceProblem& problem, const Configuration& choice, int first_draw,
                     int draws, const std::filesystem::path& folder);

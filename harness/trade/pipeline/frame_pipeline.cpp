@@ -7,7 +7,7 @@
 
 #include "harness/base/clock.h"
 #include "harness/measure/phases/narrow_choice.h"
-#include "harness/trade/pipeline/whole_bodies.h"
+#include "harness/trade/pipeline/stand_ins.h"
 
 namespace touchstone::trade {
 namespace {

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <set>
 
 #include "algorithms/core/bounds.h"
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
+#include "harness/geometry/shapes/compound.h"
 
 namespace touchstone::trade {
 namespace {
@@ -194,8 +196,7 @@ std::vector<proxies::RepresentationError> StandInLibrary::errors(
     if (!one.has_error) {
       if (!errors.empty() && watch.seconds() > most_seconds_) break;
       const geometry::Mesh* mesh = frames_->mesh_of[shape];
-      // The given shape represents itself, unless there is a mesh, whose hull it is.
-      if (representation.form != proxies::Form::as_given || mesh != nullptr) {
+      if (representation.form != proxies::Form::as_given) {
         try {
           one.error = representing_.error(scene.shapes[shape], mesh, one.stand_in->parts);
         } catch (const base::InputError&) {
@@ -227,6 +228,33 @@ std::int64_t StandInLibrary::hulls() const {
     if (made.stand_in != nullptr) hulls += made.stand_in->hulls;
   }
   return hulls;
+}
+
+std::vector<ConcaveBody> whole_bodies(const SceneFrames& frames, const StandIns& stand_ins,
+                                      const Configuration& configuration) {
+  const scene::Scene& scene = *frames.scene;
+  std::vector<ConcaveBody> bodies(scene.shapes.size());
+  std::vector<char> made(scene.shapes.size(), 0);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::uint32_t shape = scene.bodies[i].shape;
+    if (made[shape] != 0) continue;
+    made[shape] = 1;
+    ConcaveBody& body = bodies[shape];
+    const geometry::Mesh* mesh = frames.mesh_of[shape];
+    const auto& wanted = configuration.representations.of[frames.kind_of(i)];
+    const bool is_mesh =
+        !wanted || wanted->form == proxies::Form::mesh || wanted->form == proxies::Form::as_given;
+    if (mesh != nullptr && is_mesh) {
+      const bool closed = !geometry::open_edge(mesh->vertices, mesh->triangles);
+      body.mesh = std::make_shared<const TriangleMesh>(
+          TriangleMesh{mesh->vertices, mesh->triangles, closed});
+      continue;
+    }
+    for (const proxies::Part& part : stand_ins.of[i]->parts) {
+      body.parts.push_back({part.shape, part.pose});
+    }
+  }
+  return bodies;
 }
 
 }  // namespace touchstone::trade

@@ -1,4 +1,5 @@
-// The proxies of a scene's bodies in a configuration, with a tree if they have several parts.
+// The proxies of a scene's bodies in a configuration, with a tree if they have several parts, and the bodies as mesh
+// algorithms take them.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/core/mesh/concave_body.h"
 #include "harness/trade/configuration.h"
 #include "harness/trade/pipeline/part_tree.h"
 #include "harness/trade/pipeline/scene_frames.h"
@@ -102,5 +104,10 @@ class StandInLibrary {
   std::map<Key, Made> made_;
   std::map<std::string, std::shared_ptr<const StandIns>> whole_;
 };
+
+// For each shape of the scene: its mesh, a solid if that is closed, where the configuration
+// represents it by `mesh`; else a compound of its stand-in's parts. Shapes without a body are empty.
+std::vector<ConcaveBody> whole_bodies(const SceneFrames& frames, const StandIns& stand_ins,
+                                      const Configuration& configuration);
 
 }  // namespace touchstone::trade

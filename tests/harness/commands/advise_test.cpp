@@ -40,6 +40,52 @@ TEST(AdviseCommand, WritesAFileThatMeasuresItsChoiceAgain) {
   EXPECT_EQ(rows[0][3], "0");
 }
 
+TEST(AdviseCommand, ItsFolderIsShownAndReported) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", spheres).string();
+  const std::string out = (folder.path() / "out").string();
+  const Ran ran =
+      run_program("advise " + scene + " --max-error 0.05 --threads 1 --seconds 1 --out " + out);
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("  tested         0 of "));
+  const Ran shown = run_program("show " + out);
+  EXPECT_EQ(shown.status, 0) << shown.text;
+  EXPECT_THAT(shown.text, HasSubstr("Cheapest: "));
+  const auto rows =
+      read_rows(folder.path() / "out/advice.csv", {"role", "wrong", "tested", "ratio"});
+  ASSERT_FALSE(rows.empty());
+  EXPECT_EQ(rows[0][0], "cheapest");
+  EXPECT_EQ(rows[0][1], "0");
+  EXPECT_EQ(rows[0][3], "1");
+  const std::string page = folder.write("page.html", "<!--BUNDLE-->").string();
+  const Ran report =
+      run_program("report " + out + " --page " + page + " --out " + out + "/report.html");
+  EXPECT_EQ(report.status, 0) << report.text;
+}
+
+TEST(AdviseCommand, OnePairIsNoTest) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder
+          .write("scene.toml",
+                 "[[body]]\nshape = {type = \"box\", half_extents = [1, 1, 1]}\n"
+                 "[[body]]\nshape = {type = \"sphere\", radius = 1}\ntranslation = [1.9, 0, 0]\n")
+          .string();
+  const std::string out = (folder.path() / "out").string();
+  for (const char* most : {"0", "0.001"}) {
+    const Ran ran = run_program("advise " + scene + " --max-error " + most +
+                                " --threads 1 --seconds 1 --out " + out);
+    EXPECT_EQ(ran.status, 1) << ran.text;
+    EXPECT_THAT(ran.text, HasSubstr("Cannot know: 1 pair tests nothing: move the bodies, or give "
+                                    "more frames.\n"));
+    if (std::string(most) == "0") {
+      EXPECT_THAT(ran.text, testing::Not(HasSubstr("inner")));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/advice.toml"));
+    EXPECT_EQ(read_rows(folder.path() / "out/advice.csv", {"role"}).at(0).at(0), "untested");
+  }
+}
+
 TEST(AdviseCommand, WhatRestsIsNotUpdatedAndDistancesHaveWitnessPoints) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", still).string();
@@ -74,7 +120,7 @@ TEST(AdviseCommand, VerifiesAListOfScenes) {
   bool all = true;
   for (const auto& row : rows) {
     EXPECT_EQ(row[0], "scene");
-    EXPECT_EQ(row[3], "seeds 4 to 5");
+    EXPECT_EQ(row[3], "seeds 1002 to 1003");
     EXPECT_EQ(row[6], "yes");
     EXPECT_EQ(row[7] == "yes", row[8] == "yes");
     all = all && row[7] == "yes";

@@ -127,7 +127,7 @@ TEST_F(Cases, LinesAndUnknownKeys) {
 }
 
 TEST_F(Cases, MalformedJson) {
-  EXPECT_THAT(error("{}\n{"), StartsWith("in.jsonl:1: no \"id\"; expected a string"));
+  EXPECT_THAT(error("{}\n{"), StartsWith("in.jsonl:1: no \"a\"; expected the first body"));
   EXPECT_THAT(error(with_shape(R"({"type":"sphere","radius":1})") + "\n\n{\"id\":"),
               StartsWith("in.jsonl:3: malformed JSON: column"));
   EXPECT_THAT(error("nonsense"), StartsWith("in.jsonl:1: malformed JSON: column 2: "));

@@ -1,12 +1,10 @@
 // Tests of error counts.
-#include "harness/trade/errors.h"
+#include "harness/trade/evaluation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "harness/trade/front.h"
 
 namespace touchstone {
 namespace {

@@ -116,7 +116,8 @@ TEST(TradePipeline, AConcavePhaseTakesTheMeshItself) {
     trade::TradeGrid grid = grid_with("gjk");
     grid.narrow.clear();
     grid.concave = {registry::find<ConcaveEntry>("fused")};
-    for (const proxies::Form form : {proxies::Form::mesh, proxies::Form::as_given}) {
+    for (const proxies::Form form :
+         {proxies::Form::mesh, proxies::Form::as_given, proxies::Form::hull}) {
       grid.representations = {all_as(form)};
       const trade::TradePoint point = point_of(grid, world.frames, library, task);
       EXPECT_EQ(point.configuration.narrow_name(), "fused double");
@@ -126,13 +127,25 @@ TEST(TradePipeline, AConcavePhaseTakesTheMeshItself) {
       EXPECT_EQ(found.errors.contacts, 2);
       EXPECT_EQ(found.errors.false_negatives, 0);
       // The hulls of linked rings overlap.
-      EXPECT_EQ(found.errors.false_positives, form == proxies::Form::mesh ? 0 : 2);
-      if (task == Task::distance && form == proxies::Form::mesh) {
+      EXPECT_EQ(found.errors.false_positives, form == proxies::Form::hull ? 2 : 0);
+      EXPECT_EQ(point.configuration.representations.name(),
+                form == proxies::Form::hull ? "hull" : "as-given");
+      if (task == Task::distance && form != proxies::Form::hull) {
         EXPECT_LT(found.errors.value.greatest, 1e-6);
         EXPECT_GT(found.errors.values, 0);
       }
     }
   }
+}
+
+TEST(TradePipeline, NoNarrowPhaseTakesAMeshAsItIsGiven) {
+  World world(rings);
+  const trade::TradeGrid grid = grid_with("gjk");
+  const trade::GridPoints made =
+      trade::expand({&grid, 1}, world.frames, world.library, Task::intersect);
+  EXPECT_TRUE(made.points.empty());
+  ASSERT_EQ(made.left_out.size(), 1u);
+  EXPECT_THAT(made.left_out.begin()->first, testing::HasSubstr("expected hull, parts or mesh"));
 }
 
 TEST(TradePipeline, WithoutANarrowPhaseEveryPairOfBoxesIsAContact) {

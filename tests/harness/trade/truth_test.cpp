@@ -7,7 +7,6 @@
 #include <cmath>
 #include <set>
 
-#include "harness/trade/pipeline/true_meshes.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/harness/trade/trade_scenes.h"
 

@@ -8,7 +8,6 @@
 
 #include "harness/files/csv.h"
 #include "harness/trade/advice/advice_files.h"
-#include "harness/trade/advice/advice_list.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/trade/trade_scenes.h"
 #include "tests/project_folder.h"
@@ -45,7 +44,7 @@ TEST(Verification, HoldsTheChoiceAgainstTheGridAndOtherSeeds) {
   EXPECT_EQ(found.choice.error, 0);
   EXPECT_EQ(found.held_out_on, "seeds 4 to 5");
   ASSERT_EQ(found.held_out.size(), 2u);
-  EXPECT_NE(found.held_out[0].near, found.held_out[1].near);
+  EXPECT_NE(found.held_out[0].errors.near, found.held_out[1].errors.near);
   EXPECT_EQ(found.configurations, 8u);
   EXPECT_GE(found.rivals, 2u);
   EXPECT_LT(found.rivals, 7u);
@@ -105,7 +104,7 @@ TEST(Verification, ARowSaysWhatCameOut) {
   const trade::AdviceProblem problem{small.request, scene, small.representing, budget, {}};
   trade::Verification verification;
   verification.choice.error = 0.25;
-  verification.held_out = {{"seed 4", 0.5, 10, 1, true}};
+  verification.held_out = {{"seed 4", 0.5, true}};
   verification.held_out_on = "seed 4";
   verification.within_budget = true;
   verification.best = "other";

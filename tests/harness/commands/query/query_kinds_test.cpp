@@ -3,13 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "algorithms/registry.h"
 #include "tests/harness/commands/program.h"
+#include "tests/harness/report/unpacked.h"
 #include "tests/harness/temporary_folder.h"
+#include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
@@ -104,6 +109,156 @@ TEST_F(QueryKinds, ALibraryIsAskedForWhatItHas) {
     }
   }
   EXPECT_GE(with_depth_alone, 1);
+}
+
+// The exact answer first, and of the others how far they are off it.
+TEST_F(QueryKinds, APairIsAnsweredInLinesThatOneReads) {
+  const std::string text = shown(write(
+      "pair.jsonl",
+      R"({"a":{"shape":{"type":"sphere","radius":0.1}},"b":{"shape":{"type":"ellipsoid",)"
+      R"("radii":[1,0.5,0.25]},"translation":[0.3,0.2,0.1],"quaternion_wxyz":[1,0.2,0.3,0.4]}})"
+      "\n"));
+  EXPECT_THAT(text, testing::StartsWith("case '1'\n  exact  "));
+  EXPECT_THAT(
+      text, ContainsRegex("  exact +overlapping  -0\\.[0-9]+ \\+- [0-9]e-[0-9]+ m \\(proven\\)\n"));
+  EXPECT_THAT(text, ContainsRegex("\n  certified +-0\\.[0-9]+ \\((exact|off by [0-9]e-[0-9]+)\\)"));
+  EXPECT_THAT(text, ContainsRegex("\\(off by [0-9]e-[0-9]+\\)"));
+}
+
+TEST_F(QueryKinds, APairOfAScene) {
+  const std::string scene = write("scene.toml",
+                                  "frames = 3\n"
+                                  "[[body]]\nshape = {type = \"sphere\", radius = 1}\n"
+                                  "[[body]]\nmesh = \"mesh.obj\"\ntranslation = [9, 0, 0]\n"
+                                  "[[body]]\nshape = {type = \"sphere\", radius = 1}\n"
+                                  "translation = [4, 0, 0]\nvelocity = [30, 0, 0]\n");
+  write("mesh.obj", small_tetrahedron);
+  EXPECT_THAT(shown(scene + " --bodies 0 2"), ContainsRegex("case '0-2'\n  exact +separated  2 "));
+  EXPECT_THAT(shown("--bodies 0,2 " + scene), ContainsRegex("case '0-2'\n  exact +separated  2 "));
+  EXPECT_THAT(shown(scene + " --bodies 0 2 --frame 1"), ContainsRegex("exact +separated  3 "));
+  EXPECT_THAT(shown(scene + " --bodies 0 1"), ContainsRegex("case '0-1'\n  exact +separated  8 "));
+  expect_refusal("query " + scene, "scene.toml: is a scene; expected --bodies", folder);
+  for (const char* bodies : {"0", "0 3", "0 0", "0 1 2", "0 x"}) {
+    expect_refusal("query " + scene + " --bodies " + bodies, "--bodies", folder);
+  }
+  expect_refusal("query " + scene + " --bodies 0 2 --frame 3",
+                 "--frame: found 3; expected at most 2", folder);
+  expect_refusal("query " + scene + " --bodies 0 2 --id 3", "--id excludes --bodies", folder);
+  const std::string pairs = write("pairs.jsonl", two_boxes);
+  expect_refusal("query " + pairs + " --frame 1", "expected it with --bodies alone", folder);
+  expect_refusal("query " + pairs + " --bodies 0 1", "pairs.jsonl", folder);
+}
+
+TEST_F(QueryKinds, AMeshIsNamedAsInScenes) {
+  write("mesh.obj", small_tetrahedron);
+  const std::string ball = R"(,"b":{"shape":{"type":"sphere","radius":1},"translation":[1,1,-3]}})";
+  for (const char* body : {R"({"a":{"mesh":"mesh.obj"})", R"({"a":{"shape":{"mesh":"mesh.obj"}})",
+                           R"({"a":{"mesh":"mesh.obj","as":"hull","scale":1})"}) {
+    EXPECT_THAT(shown(write("pair.jsonl", body + ball + "\n")),
+                ContainsRegex("case '1'\n  exact +separated  2 "))
+        << body;
+  }
+  const auto refused = [&](const std::string& body, const std::string& text) {
+    expect_refusal("query " + write("bad.jsonl", "{\"a\":" + body + ball + "\n"), text, folder);
+  };
+  refused(R"({"mesh":"none.obj"})", "bad.jsonl:1: a.mesh: no file");
+  refused(R"({"mesh":"mesh.obj","shape":{"type":"sphere","radius":1}})",
+          "bad.jsonl:1: a: \"mesh\" is given beside \"shape\"");
+  refused(R"({"mesh":"mesh.obj","scale":0})", "bad.jsonl:1: a.scale: found 0");
+}
+
+TEST_F(QueryKinds, APageHasThePairs) {
+  write("mesh.obj", small_tetrahedron);
+  const std::string ball = R"(,"b":{"shape":{"type":"sphere","radius":1},"translation":[1,1,-3]}})";
+  const std::string built = write("built.html", "<!--BUNDLE-->");
+  const std::string page = (folder.path() / "pair.html").string();
+  shown(write("pairs.jsonl",
+              two_boxes + R"({"a":{"shape":{"type":"box","half_extents":[1,1,1]}})" + ball + "\n") +
+        " --page " + page + " --built-page " + built);
+  nlohmann::json cases = bundle_of(folder.read("pair.html"))["results"][0]["cases"];
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0]["id"], "p");
+  EXPECT_EQ(cases[0]["truth"]["answer"], "overlapping");
+  EXPECT_GT(cases[0]["answers"].size(), 5u);
+  EXPECT_THAT(std::string(cases[1]["query"]), HasSubstr("pairs.jsonl --id 2"));
+  shown(write("meshes.jsonl", R"({"a":{"mesh":"mesh.obj"})" + ball + "\n") + " --page " + page +
+        " --built-page " + built);
+  cases = bundle_of(folder.read("pair.html"))["results"][0]["cases"];
+  ASSERT_EQ(cases.size(), 1u);
+  EXPECT_EQ(cases[0]["truth"]["answer"], "separated");
+  EXPECT_EQ(cases[0]["a"]["shape"]["faces"].size(), 4u);
+  for (const auto& answer : cases[0]["answers"]) EXPECT_NE(answer["grade"], "silent");
+  std::filesystem::remove(page);
+  expect_refusal(
+      "query " + write("pairs.jsonl", two_boxes) + " --page " + page + " --built-page none",
+      "the page is not built", folder);
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(std::filesystem::path(project_folder) / file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The cases of the section "A pair in JSON" of datasets/README.md can be copied.
+TEST_F(QueryKinds, TheDocumentedCasesAreAnswered) {
+  std::string text = text_of("datasets/README.md");
+  text = text.substr(text.find("### A pair in JSON"));
+  std::string cases;
+  std::size_t count = 0;
+  for (std::size_t at = text.find("\n    {"); at != std::string::npos;
+       at = text.find("\n    {", at + 1)) {
+    cases += text.substr(at + 5, text.find('\n', at + 1) - at - 4);
+    ++count;
+  }
+  EXPECT_GE(count, 3u);
+  std::filesystem::create_directory_symlink(std::filesystem::path(project_folder) / "datasets/home",
+                                            folder.path() / "home");
+  const std::string answered = shown(write("pairs.jsonl", cases));
+  for (const char* id : {"case '1'", "case 'turned'", "case 'a file'"}) {
+    EXPECT_THAT(answered, HasSubstr(id));
+  }
+  EXPECT_THAT(answered, Not(HasSubstr("warning")));
+}
+
+// results/columns.md has every column of every kind.
+TEST_F(QueryKinds, TheColumnsOfAnswersAreDocumented) {
+  const std::string page = text_of("results/columns.md");
+  const std::string mesh = write("mesh.obj", small_tetrahedron);
+  const std::string scene = write(
+      "scene.toml", "[[body]]\nshape = {type = \"sphere\", radius = 1}\ntranslation = [1, 1, 1]\n");
+  const std::string rays = write("rays.csv", ray_columns + "1,1,9,0,0,-1,inf\n");
+  const std::string pairs = write("pairs.jsonl", two_boxes);
+  const std::vector<std::pair<std::string, std::string>> asked = {
+      {"Answers about pairs", pairs},
+      {"Answers about pairs", write("meshes.jsonl", triangle_and_ball) + " --task contacts"},
+      {"Answers about moving pairs", write("moving.jsonl", moving_ball)},
+      {"Contact points", pairs + " --kind manifold"},
+      {"Answers about boxes",
+       write("boxes.csv", "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n0,0,0,0,0,2,2,2\n")},
+      {"Answers about rays", rays + " --in " + mesh},
+      {"Answers about rays", rays + " --in " + scene},
+      {"Answers about points", write("points.csv", "x,y,z\n1,1,-2\n") + " --in " + mesh},
+      {"Answers about moving features",
+       write("features.csv", "0,0,1\n-1,-1,0\n1,-1,0\n0,1,0\n0,0,-1\n-1,-1,0\n1,-1,0\n0,1,0\n") +
+           " --features vertex-face"}};
+  for (const auto& [heading, arguments] : asked) {
+    const std::size_t from = page.find("\n## " + heading + "\n");
+    ASSERT_NE(from, std::string::npos) << heading;
+    const std::string section = page.substr(from, page.find("\n#", from + 4) - from);
+    shown(arguments + " --out " + (folder.path() / "out.csv").string());
+    const std::string out = folder.read("out.csv");
+    std::string header = out.substr(0, out.find('\n')) + ",";
+    for (std::size_t comma = header.find(','); comma != std::string::npos;
+         comma = header.find(',')) {
+      const std::string column = header.substr(0, comma);
+      header.erase(0, comma + 1);
+      // `a_x` to `b_z` of manifolds, and `_y` behind `normal_x`, are ranges.
+      const bool is_in_range = heading == "Contact points" && column[1] == '_';
+      const bool is_axis = heading == "Contact points" && column.starts_with("normal_");
+      if (is_in_range || is_axis) continue;
+      EXPECT_THAT(section, HasSubstr("`" + column + "`")) << heading;
+    }
+  }
 }
 
 TEST_F(QueryKinds, WhatDoesNotTakeTheQuestionIsOneLine) {

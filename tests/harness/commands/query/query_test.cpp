@@ -221,7 +221,8 @@ TEST_F(QueryCommand, BadCases) {
     return R"({"id":"x","a":{"shape":)" + s + R"(},"b":{"shape":{"type":"sphere","radius":1}}})";
   };
   refuse("{\"id\":", "malformed JSON");
-  refuse("{}", "no \"id\"");
+  refuse("{}", "no \"a\"");
+  refuse(R"({"id":3})", "id: found 3; expected a string");
   refuse(R"({"id":"x"})", "no \"a\"");
   refuse(shape(R"({"type":"sphere","radius":NaN})"), "malformed JSON");
   refuse(shape(R"({"type":"sphere","radius":1e999})"), "malformed JSON");
