@@ -1,4 +1,4 @@
-"""Time a query of each algorithm on the cells of a campaign with [cells]: rays, points, concave bodies, casts, features that
+"""Time a query of each algorithm on the cells of a campaign of kinds: rays, points, concave bodies, casts, features that
 move and moving scenes. A panel a group; an answer that was wrong has a cross beside its mark."""
 
 import os

@@ -1,4 +1,4 @@
-// The kinds of cells. Each reads its own keys of a table [cells] and makes its cells.
+// The kinds of cells. Each reads its own keys of a [[group]] and makes its cells.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Reads a table [cells]: what all kinds have, then what is the kind's own.
+// Reads a [[group]] of a kind: what all kinds have, then what is the kind's own.
 #include "harness/cells/read_cells.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 #include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/kind.h"
-#include "harness/kinds/mesh/sliding_sets.h"
+#include "harness/kinds/mesh/mesh_kind.h"
 
 namespace touchstone::cells {
 namespace {
@@ -39,7 +39,6 @@ std::vector<kinds::PlannedSet> read_sets(files::TomlTable& table,
   for (const auto& [other, make] : other_sets) {
     if (name == other) return make(table, home);
   }
-  if (name == "casts") return kinds::cast_kind().timed_sets(table, home);  // the word before
   if (const kinds::Kind* kind = kinds::find_kind(name)) return kind->timed_sets(table, home);
   std::string known;
   for (const kinds::Kind* kind : kinds::kinds()) known += std::string(kind->name()) + ", ";
@@ -47,7 +46,20 @@ std::vector<kinds::PlannedSet> read_sets(files::TomlTable& table,
              fmt::format("found '{}'; expected one of {}sliding, motion, frames", name, known));
 }
 
-std::string fingerprint(const std::string& text) {
+// Results are compared where their files have equal hashes. The table was called [cells], and kinds had other words:
+// the hash is that of the file in these, so that earlier results are compared with later ones.
+std::string fingerprint(std::string text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words = {
+      {{"[[group]]", "[cells]"},
+       {"kind = \"ray\"", "kind = \"rays\""},
+       {"kind = \"point\"", "kind = \"points\""},
+       {"kind = \"cast\"", "kind = \"casts\""},
+       {"kind = \"feature\"", "kind = \"ccd\""},
+       {"kind = \"mesh\"", "kind = \"concave\""}}};
+  for (const auto& [now, before] : words) {
+    const std::size_t at = text.find(now);
+    if (at != std::string::npos) text.replace(at, now.size(), before);
+  }
   std::uint64_t hash = 0;
   for (const char c : text) hash = base::mix(hash ^ static_cast<unsigned char>(c));
   return base::to_hex(hash);
@@ -67,14 +79,21 @@ void refuse_equal_names(files::TomlTable& table, const std::vector<kinds::Planne
 
 }  // namespace
 
-bool has_cells(const std::filesystem::path& file) { return files::has_key(file, "cells"); }
+bool has_cells(const std::filesystem::path& file) {
+  return files::has_key(file, "group.kind") || files::has_key(file, "cells");
+}
 
 CellRequest read_cells(const std::filesystem::path& file) {
   const toml::table root = files::parse_toml(file);
   files::TomlTable top(root, file.string(), "");
   CellRequest request;
   request.name = files::folder_name(top, file);
-  files::TomlTable table = top.inside("cells", "cells");
+  if (top.has("cells")) {
+    top.fail("cells", "[cells] is now `[[group]]`, with the same keys; expected that line");
+  }
+  std::vector<files::TomlTable> groups = top.tables("group");
+  if (groups.size() != 1) top.fail("group", "expected one [[group]] in a file with `kind`");
+  files::TomlTable& table = groups.front();
   request.rounds = static_cast<int>(table.integer("rounds", 6, 10'000, request.rounds));
   request.sample_seconds = table.number("sample_seconds", files::positive, request.sample_seconds);
   request.time_limit = table.number("time_limit", files::positive, request.time_limit);
@@ -83,7 +102,6 @@ CellRequest read_cells(const std::filesystem::path& file) {
   request.query_kind = table.text("kind");
   if (const kinds::Kind* kind = kinds::find_kind(request.query_kind))
     request.query_kind = kind->name();
-  if (request.query_kind == "casts") request.query_kind = kinds::cast_kind().name();
   request.cells = read_sets(table, file.parent_path());
   refuse_equal_names(table, request.cells);
   table.finish();

@@ -6,7 +6,7 @@
 
 #include "harness/base/table.h"
 #include "harness/check/check_report.h"
-#include "harness/check/families/family_tables.h"
+#include "harness/check/family_tables.h"
 #include "harness/check/grouped_counts.h"
 #include "harness/grade/wrong.h"
 #include "harness/record/machine.h"
@@ -174,13 +174,14 @@ std::string one_failure_of_each(const CheckReport& report, const GroupedCounts& 
 
 }  // namespace
 
-std::string page_text(const CheckReport& report, const std::string& command) {
+std::string page_text(const CheckReport& report, const std::string& command,
+                      const std::string& pictures) {
+  if (report.request->mode == CheckMode::axes) return axes_page(report, command, pictures);
   const GroupedCounts grouped(report);
   return introduction(report, command) + sides_of_contact(grouped) + lengths(report, grouped) +
          silent_errors_by_group(grouped) + depths_by_group(grouped) + other_forms(grouped) +
-         broad_phases(report) + family_sections(*report.request, report.tally->families()) +
-         "\n## What was checked beside them\n\n" + checked_text(report) +
-         one_failure_of_each(report, grouped);
+         broad_phases(report) + family_sections(report) + "\n## What was checked beside them\n\n" +
+         checked_text(report) + one_failure_of_each(report, grouped);
 }
 
 }  // namespace touchstone::check

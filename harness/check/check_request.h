@@ -39,6 +39,13 @@ struct CheckSubjects {
   }
 };
 
+// What is made of the cases.
+enum class CheckMode : std::uint8_t {
+  cases,  // a row for each answer of narrow phases; sampled cases are asked in other forms too
+  axes,   // one property of a case grows to its extreme: the first values that are wrong
+  count,  // counts of verdicts alone, of many cases, a thousand of a regime or family in a job
+};
+
 // An algorithm in one of its scalars.
 struct CheckedAlgorithm {
   std::uint32_t entry = 0;  // place in the request
@@ -47,19 +54,31 @@ struct CheckedAlgorithm {
   friend auto operator<=>(const CheckedAlgorithm&, const CheckedAlgorithm&) = default;
 };
 
+inline constexpr std::int64_t cases_of_a_count_job = 1000;
+
 struct CheckRequest {
+  CheckRequest() = default;
+  // With the defaults of the mode.
+  explicit CheckRequest(CheckMode of) : mode(of) {
+    if (of != CheckMode::axes) return;
+    cases = 48;
+    time_limit = 0.5;
+  }
+
+  CheckMode mode = CheckMode::cases;
   std::vector<const NarrowPhaseEntry*> narrow;
   std::vector<const BroadPhaseEntry*> broad;
   std::vector<Precision> scalars = {Precision::float64, Precision::float32};
-  std::vector<const Regime*> regimes;          // of pairs, for narrow phases
+  std::vector<const Regime*> regimes;          // of pairs, for narrow phases; of axes, their values
   std::vector<const kinds::Family*> families;  // of cases, for contestants of their kinds
   std::vector<kinds::Contestant> contestants;
   std::uint64_t seed = 1;
-  int cases = 200;         // number of cases of each regime in a round
-  int rounds = 1;          // number of rounds
-  double seconds = 0;      // rounds go on for so long instead; 0: `rounds` of them
-  int workers = 2;         // number of processes
-  double time_limit = 10;  // seconds for one query
+  int cases = 200;                 // number of cases of each regime in a round; without `count`
+  int rounds = 1;                  // number of rounds; of cases alone
+  double seconds = 0;              // rounds go on for so long instead; 0: `rounds` of them
+  std::int64_t count = 1'000'000;  // of that mode: cases in all, spread evenly
+  int workers = 2;                 // number of processes
+  double time_limit = 10;          // seconds for one query; of axes, of processor time
   std::filesystem::path out;
   bool resume = false;               // resumes the work in the folder
   std::optional<record::Part> part;  // some jobs instead of all
@@ -69,9 +88,14 @@ struct CheckRequest {
   // families.
   std::size_t regime_jobs() const { return narrow.empty() ? 0 : regimes.size(); }
   std::size_t period() const { return regime_jobs() + families.size(); }
-  // Returns the jobs of the part, or else all `count`.
-  base::UnitRange jobs(std::int64_t count) const {
-    return part ? part->units : base::UnitRange{0, count};
+  // The jobs of the whole check, if it does not go on for some time.
+  std::int64_t job_count() const {
+    if (mode == CheckMode::count) return (count + cases_of_a_count_job - 1) / cases_of_a_count_job;
+    return static_cast<std::int64_t>(period()) * rounds;
+  }
+  // Returns the jobs of the part, or else `all`.
+  base::UnitRange jobs(std::int64_t all) const {
+    return part ? part->units : base::UnitRange{0, all};
   }
   // Returns the narrow phases in those of the scalars that they offer.
   std::vector<CheckedAlgorithm> algorithms() const {

@@ -1,13 +1,34 @@
-// The columns of grades.csv, variants.csv, jobs.csv and summary.csv.
+// The files of a check with rows, and their columns.
 #pragma once
 
-#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
 
+#include "harness/check/axes/axes.h"
 #include "harness/check/check_job.h"
 #include "harness/check/tally.h"
 #include "harness/record/row.h"
 
 namespace touchstone::check {
+
+// Calls visit.operator()<Row>(name) for each file to which jobs append rows, in order.
+template <class Visit>
+void for_each_row_file(CheckMode mode, const Visit& visit) {
+  switch (mode) {
+    case CheckMode::cases:
+      visit.template operator()<grade::GradedAnswer>("grades.csv");
+      visit.template operator()<VariantCount>("variants.csv");
+      visit.template operator()<JobSummary>("jobs.csv");
+      break;
+    case CheckMode::axes:
+      visit.template operator()<AxisCount>("stress.csv");
+      visit.template operator()<AxisSummary>("cells.csv");
+      break;
+    case CheckMode::count: visit.template operator()<VerdictCount>("jobs.csv"); break;
+  }
+  visit.template operator()<FamilyCount>("families.csv");
+}
 
 template <record::row_of<grade::GradedAnswer> Row, class Visit>
 void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
@@ -151,6 +172,136 @@ void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   visit("flips", f.flips, "Answers of these on the other side of contact.");
   visit("worst_flip", f.worst_flip, "Greatest exact distance of a flip.");
   visit("worst_difference", f.worst_difference, "Greatest difference of a distance or depth.");
+}
+
+// Returns the axes of these regimes, in order.
+inline std::vector<const Axis*> axes_of(const CheckSubjects& subjects) {
+  std::vector<const Axis*> list;
+  for (const Regime* regime : subjects.regimes) {
+    if (list.empty() || list.back() != regime->axis) list.push_back(regime->axis);
+  }
+  return list;
+}
+
+// Visits the columns `axis` and `value`, which identify the row's regime.
+template <class Row, class Visit>
+void axis_columns(Row& row, Visit& visit, const CheckSubjects& subjects) {
+  const std::vector<const Axis*> axes = axes_of(subjects);
+  // Axes of families alone have no regimes, and no rows.
+  const Axis* const of_row =
+      subjects.regimes.empty() ? nullptr : subjects.regimes[row.regime]->axis;
+  auto axis = static_cast<std::size_t>(std::ranges::find(axes, of_row) - axes.begin());
+  visit("axis", record::place_in(axis, axes.size(), [&](std::size_t i) { return axes[i]->name; }),
+        "The axis.");
+  std::vector<std::uint32_t> values;  // regimes of the axis
+  for (std::uint32_t i = 0; i < subjects.regimes.size(); ++i) {
+    if (subjects.regimes[i]->axis == axes[axis]) values.push_back(i);
+  }
+  auto place = static_cast<std::size_t>(std::ranges::find(values, row.regime) - values.begin());
+  visit(
+      "value",
+      record::place_in(place, values.size(),
+                       [&](std::size_t i) { return value_of(*subjects.regimes[values[i]]).name; }),
+      "The value on the axis.");
+  if constexpr (!std::is_const_v<Row>) {
+    if (!values.empty()) row.regime = values[place];
+  }
+}
+
+template <record::row_of<AxisCount> Row, class Visit>
+void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
+  axis_columns(row, visit, subjects);
+  visit("algorithm", record::place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
+        "The narrow phase.");
+  visit("scalar", row.scalar, "Precision that it computes in.");
+  visit("task", row.task, "What it was asked.");
+  for (const grade::AnswerClass one : grade::all_answer_classes) {
+    visit(to_string(one), row.counts[static_cast<std::size_t>(one)], "Answers of this class.");
+  }
+  visit("skipped", row.skipped, "Queries that were not asked, after too many crashes and hangs.");
+  visit("worst_margin", record::rounded(row.margin, 3),
+        "Greatest exact distance or depth that was called wrongly, part of the scale.");
+  visit("worst_error", record::rounded(row.error, 3),
+        "Greatest error of a number, part of the scale.");
+  visit("worst_index", row.worst, "Case of the silent error that is furthest off.");
+  visit("lost_index", row.lost, "Case of the first query that crashed or hung.");
+}
+
+template <record::row_of<AxisSummary> Row, class Visit>
+void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
+  axis_columns(row, visit, subjects);
+  visit("cases", row.cases, "Cases that were drawn, and are what the value asks for.");
+  visit("dropped", row.dropped, "Cases that could not be drawn so.");
+  visit("unresolved", row.unresolved, "Cases whose side of contact the oracle leaves open.");
+}
+
+// A row of soak.csv: an algorithm's counts in one regime.
+struct VerdictSum {
+  VerdictCount count;
+  std::uint64_t seed = 0;
+  std::int64_t drawn = 0;
+  std::string program;
+};
+
+template <record::row_of<VerdictCount> Count, class Visit>
+void subject_columns(Count& row, Visit& visit, const CheckSubjects& subjects) {
+  visit("algorithm", record::place_in(row.entry, subjects.narrow.size(), subjects.narrow_name()),
+        "The narrow phase.");
+  visit("scalar", row.scalar, "Precision that it computes in.");
+  visit("regime", record::place_in(row.regime, subjects.regimes.size(), subjects.regime_name()),
+        "Regime of the pairs.");
+}
+
+template <record::row_of<VerdictCount> Count, class Visit>
+void verdict_columns(Count& count, Visit& visit) {
+  visit("pairs", count.pairs, "Pairs that it was asked about.");
+  visit("separated", count.separated, "Pairs that are apart.");
+  visit("touching", count.touching, "Pairs that touch exactly.");
+  visit("overlapping", count.overlapping, "Pairs that overlap.");
+  visit("unresolved", count.unresolved, "Pairs whose side of contact the oracle leaves open.");
+  visit("silent", count.silent, "Answers on the wrong side of contact that nothing tells.");
+  visit("honest", count.honest,
+        "Gave up: the answer is unknown, or the status says that it is not to be trusted.");
+  visit("lost", count.lost, "Failed: crashed, or gave no answer in time.");
+  visit("first_wrong", record::with_sign(count.first_wrong),
+        "First case that was silently wrong or failed; -1 where there is none.");
+}
+
+template <record::row_of<VerdictCount> Row, class Visit>
+void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
+  subject_columns(row, visit, subjects);
+  visit("round", row.round, "Round of the count; each has 1000 pairs of every regime.");
+  verdict_columns(row, visit);
+}
+
+template <record::row_of<VerdictSum> Row, class Visit>
+void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
+  subject_columns(row.count, visit, subjects);
+  visit("seed", row.seed, "Seed of the cases.");
+  visit("drawn", row.drawn, "Pairs drawn in all regimes, whether an algorithm takes them or not.");
+  verdict_columns(row.count, visit);
+  visit("program", row.program, "Hash of the program.");
+}
+
+template <record::row_of<FamilyCount> Row, class Visit>
+void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
+  visit("family", record::place_in(row.family, subjects.families.size(), subjects.family_name()),
+        "Family of the cases.");
+  visit("group", record::derived([&] { return subjects.families[row.family]->group; }),
+        "Group of the family.");
+  visit("algorithm",
+        record::place_in(row.contestant, subjects.contestants.size(), subjects.contestant_name()),
+        "The kind, the algorithm, its precision and its task.");
+  visit("form", row.form, "Form of the cases; all but `as drawn` are asked for every fifth case.");
+  visit("round", row.round, "Round of the check.");
+  visit("cases", row.cases, "Cases that it was asked for.");
+  visit("contacts", row.contacts, "Of these, contacts, hits or points inside by the exact answer.");
+  visit("unresolved", row.unresolved, "Cases whose exact answer is not known.");
+  visit("right", row.right, "Answers that are right.");
+  kinds::grade_columns(row, visit);
+  visit("failed", row.failed, "Queries that crashed, or gave no answer in time.");
+  visit("first_wrong", record::with_sign(row.first_wrong),
+        "First case that is missed, false, inexact or failed; -1 where there is none.");
 }
 
 }  // namespace touchstone::check

@@ -34,9 +34,24 @@ struct TruthFailure {
   std::filesystem::path file;
 };
 
+// A contestant that is wrong about cases of a family.
+struct FamilyFailure {
+  FamilyCount count;
+  std::string command;  // asks for the first such case again
+};
+
 // Returns the command that runs the cases of a file again.
 std::string query_command(const CheckRequest& request, const grade::Query& query,
                           const std::filesystem::path& file);
+
+// Returns the answers that get a case file. Of graded cases they are the tally's. Of axes and counts, whose rows
+// say only where an answer was wrong, each is asked for again:
+// - of axes for ours in double one case of each axis on which a task is silently wrong or lost, at the first
+//   such value; for a peer in a scalar the worst silent errors of three axes, and one query that it crashes
+//   or hangs in. Hulls of more than a hundred vertices are left out;
+// - of counts for ours the first case of each regime that was silently wrong or lost, and for a peer in a scalar
+//   the first of all.
+std::vector<grade::GradedAnswer> failing_answers(const CheckRequest& request, const Tally& tally);
 
 // Writes the cases of these answers, each shrunk while it still fails in the same way, to
 // failures/ALGORITHM-SCALAR-TASK.jsonl in the request's folder, one case per line. First it removes
@@ -47,5 +62,9 @@ std::vector<FailureCase> write_failures(const CheckRequest& request,
 // shrunk. To be called after write_failures.
 std::vector<VariantFailure> write_variant_failures(const CheckRequest& request, const Tally& tally);
 std::vector<TruthFailure> write_truth_failures(const CheckRequest& request, const Tally& tally);
+
+// Writes the first case of each count that has missed, false, inexact or failed ones, into failures/: all
+// of ours, and one of a family for each other contestant. To be called after write_failures.
+std::vector<FamilyFailure> write_family_failures(const CheckRequest& request, const Tally& tally);
 
 }  // namespace touchstone::check

@@ -27,12 +27,12 @@ struct Checked {
 }  // namespace
 
 GroupedCounts::GroupedCounts(const CheckReport& report) : request_(*report.request) {
-  for (const auto& [key, counted] : report.tally->answers()) {
+  for (const auto& [key, counted] : report.tally.answers()) {
     const std::string& group = request_.regimes[key.regime]->group;
     totals_[{key.entry, key.scalar}].answers.add(counted);
     by_group_[{{key.entry, key.scalar}, group}].add(counted);
   }
-  for (const auto& [key, counted] : report.tally->flips()) {
+  for (const auto& [key, counted] : report.tally.flips()) {
     totals_[{key.entry, key.scalar}].flips.add(counted);
   }
   for (const Regime* regime : request_.regimes) {
@@ -62,7 +62,7 @@ std::string digits(double x) {
 }
 
 std::string checked_text(const CheckReport& report) {
-  const Checked checked(*report.tally);
+  const Checked checked(report.tally);
   std::string text = fmt::format(
       "{} cases, {} of them undecided by the oracle's enclosure; {} exact answers proven by a "
       "certificate, {} refused.\n{} boxes of bodies hold all of their body, {} do not.\n",

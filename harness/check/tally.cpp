@@ -26,7 +26,25 @@ void Tally::add(const VariantCount& count) {
 
 void Tally::add(const JobSummary& summary) { jobs_.push_back(summary); }
 
-void Tally::add(const FamilyCount& count) { add_to(families_, count); }
+void Tally::add(const AxisCount& count) { axis_counts_.push_back(count); }
+
+void Tally::add(const AxisSummary& summary) { axis_summaries_.push_back(summary); }
+
+void Tally::add(const VerdictCount& count) {
+  VerdictCount& sum = verdicts_[{count.entry, count.scalar, count.regime}];
+  sum.entry = count.entry;
+  sum.scalar = count.scalar;
+  sum.regime = count.regime;
+  sum.add(count);
+}
+
+void Tally::add(const FamilyCount& count) {
+  FamilyCount& sum = families_[{count.contestant, count.family, count.form}];
+  sum.family = count.family;
+  sum.contestant = count.contestant;
+  sum.form = count.form;
+  sum.add(count);
+}
 
 std::vector<grade::GradedAnswer> Tally::failures(const CheckRequest& request) const {
   std::vector<grade::GradedAnswer> all;
@@ -41,15 +59,6 @@ std::vector<grade::GradedAnswer> Tally::failures(const CheckRequest& request) co
     }
   }
   return all;
-}
-
-bool Tally::ours_are_wrong() const {
-  const auto any = [](const auto& counts) {
-    return std::ranges::any_of(counts, [](const auto& c) { return c.second.beyond > 0; });
-  };
-  return any(answers_) || any(flips_) || std::ranges::any_of(jobs_, [](const JobSummary& job) {
-           return job.refused + job.boxes_broken > 0;
-         });
 }
 
 }  // namespace touchstone::check

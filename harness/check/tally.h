@@ -42,21 +42,25 @@ class Tally {
   void add(const grade::GradedAnswer& answer);
   void add(const VariantCount& count);
   void add(const JobSummary& summary);
+  void add(const AxisCount& count);
+  void add(const AxisSummary& summary);
+  void add(const VerdictCount& count);
   void add(const FamilyCount& count);
 
   const std::map<Key, grade::AnswerCount>& answers() const { return answers_; }
   const std::map<Key, FlipCount>& flips() const { return flips_; }
   const std::vector<JobSummary>& jobs() const { return jobs_; }
+  const std::vector<AxisCount>& axis_counts() const { return axis_counts_; }
+  const std::vector<AxisSummary>& axis_summaries() const { return axis_summaries_; }
+  const std::map<Key, VerdictCount>& verdicts() const { return verdicts_; }
   const FamilyCounts& families() const { return families_; }
 
   // The counts that contain differences of ours beyond the margins.
   const std::vector<VariantCount>& variants_beyond() const { return variants_beyond_; }
 
-  // Returns the answers that get a case file, the worst first: for ours those beyond the margins;
-  // for others crashes, silent errors, and numbers whose error exceeds our margins.
+  // Returns the answers of graded cases that get a case file, the worst first: for ours those beyond
+  // the margins; for others crashes, silent errors, and numbers whose error exceeds our margins.
   std::vector<grade::GradedAnswer> failures(const CheckRequest& request) const;
-
-  bool ours_are_wrong() const;
 
  private:
   struct Failure {
@@ -68,6 +72,9 @@ class Tally {
   std::map<Key, grade::AnswerCount> answers_;
   std::map<Key, FlipCount> flips_;
   std::vector<JobSummary> jobs_;
+  std::vector<AxisCount> axis_counts_;
+  std::vector<AxisSummary> axis_summaries_;
+  std::map<Key, VerdictCount> verdicts_;
   FamilyCounts families_;
   std::vector<VariantCount> variants_beyond_;
   std::map<Key, std::vector<Failure>> failures_;

@@ -7,15 +7,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
-#include "harness/check/axes/stress_run.h"
 #include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
-#include "harness/check/requests/select_cases.h"
-#include "harness/check/soak/soak.h"
-#include "harness/check/soak/soak_text.h"
+#include "harness/check/select_cases.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures/figures.h"
@@ -34,20 +32,40 @@ struct CheckOptions {
   check::CheckRequest common;  // what is the same with and without --axes and --count
   std::optional<int> cases;
   std::optional<double> time_limit;
-  std::int64_t count = check::SoakRequest{}.pairs;
   bool quick = false;
 };
 
-template <class Request>
-Request request_of(const CheckOptions& options) {
-  Request request;
+// What a mode calls its folder, and its file of rows.
+struct ModeNames {
+  std::string_view folder, rows;
+};
+
+ModeNames names_of(check::CheckMode mode) {
+  switch (mode) {
+    case check::CheckMode::cases: break;
+    case check::CheckMode::axes: return {"stress", "stress.csv"};
+    case check::CheckMode::count: return {"soak", "soak.csv"};
+  }
+  return {"check", "grades.csv"};
+}
+
+check::CheckRequest request_of(const CheckOptions& options, check::CheckMode mode) {
+  check::CheckRequest request(mode);
   request.scalars = options.common.scalars;
   request.seed = options.common.seed;
   request.seconds = options.common.seconds;
+  request.count = options.common.count;
   request.workers = options.common.workers;
   request.resume = options.common.resume;
   if (options.cases) request.cases = *options.cases;
+  if (options.quick) request.cases = quick_cases;
   if (options.time_limit) request.time_limit = *options.time_limit;
+  if (mode == check::CheckMode::axes && request.cases > most_cases_of_axes) {
+    throw base::InputError(fmt::format("--cases: found {}; expected at most {} with --axes",
+                                       request.cases, most_cases_of_axes));
+  }
+  check::select_cases(options.selection, options.axes, request);
+  request.out = results_folder(options.out, std::string(names_of(mode).folder));
   return request;
 }
 
@@ -68,63 +86,10 @@ int verify(const std::string& file) {
   return verdicts.refused_count == 0 ? exit_done : exit_measured_wrong;
 }
 
-int check_cases(const CheckOptions& options, const std::string& command) {
-  if (!options.certificates.empty()) return verify(options.certificates);
-  auto request = request_of<check::CheckRequest>(options);
-  check::select_cases(options.selection, "all", request);
-  request.out = results_folder(options.out, "check");
-  if (!options.page.empty()) files::check_output(options.page);
-  if (!options.saved.empty()) {
-    files::check_output(options.saved);
-    fmt::print("{} certificates in {}\n", check::save_certificates(request, options.saved),
-               options.saved);
-    return exit_done;
-  }
-  const std::unique_ptr<check::CheckResult> result = check::run_check(request);
-  if (result->interrupted) return end_interrupted();
-  print_summary(
-      request.out,
-      fmt::format(
-          "{}\nRows in grades.csv and families.csv of {}; case files of what is wrong in {}\n",
-          check::summary_text(result->report, base::page_width()), request.out.string(),
-          (request.out / "failures").string()));
-  if (!options.page.empty())
-    files::write_text(options.page, check::page_text(result->report, command));
-  return result->report.ours_wrong().empty() ? exit_done : exit_measured_wrong;
-}
-
-void write_axes_page(const CheckOptions& options, const check::StressRequest& request,
-                     const check::StressResult& result, const std::string& command, bool drawn) {
-  const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
-  const std::string pictures =
-      std::filesystem::absolute(request.out / "figures").lexically_relative(folder).string();
-  files::write_text(options.page,
-                    check::stress_page(request, result, command, drawn ? pictures : ""));
-}
-
-int check_axes(const CheckOptions& options, const std::string& command) {
-  auto request = request_of<check::StressRequest>(options);
-  check::select_axes_and_algorithms(options.selection, options.axes, request);
-  if (options.quick) request.cases = quick_cases;
-  if (request.cases > most_cases_of_axes) {
-    throw base::InputError(fmt::format("--cases: found {}; expected at most {} with --axes",
-                                       request.cases, most_cases_of_axes));
-  }
-  request.out = results_folder(options.out, "stress");
-  if (!options.page.empty()) {
-    // The page may be in the folder that the sweep is about to make.
-    std::error_code ignored;
-    std::filesystem::create_directories(request.out, ignored);
-    files::check_output(options.page);
-  }
-  const check::StressResult result = check::run_stress(request);
-  if (result.interrupted) return end_interrupted();
-  print_summary(request.out, fmt::format("{}\nRows in {}; case files of what is wrong in {}\n",
-                                         check::stress_text(request, result, base::page_width()),
-                                         (request.out / "stress.csv").string(),
-                                         (request.out / "failures").string()));
-  const std::filesystem::path log = request.out / "figures.txt";
-  const Drawing maps = draw_figures("stress.py", {request.out.string()}, log);
+// Draws the maps of axes. Returns their path from the page's folder; empty if they are not drawn.
+std::string draw_maps(const std::filesystem::path& out, const std::string& page) {
+  const std::filesystem::path log = out / "figures.txt";
+  const Drawing maps = draw_figures("stress.py", {out.string()}, log);
   if (maps == Drawing::no_matplotlib) {
     fmt::print(
         "The maps are not drawn: that takes Python 3 with matplotlib "
@@ -132,27 +97,40 @@ int check_axes(const CheckOptions& options, const std::string& command) {
   } else if (maps == Drawing::failed) {
     fmt::print("The maps could not be drawn; {} says why\n", log.string());
   }
-  if (!options.page.empty())
-    write_axes_page(options, request, result, command, maps == Drawing::drawn);
-  return result.broken.empty() ? exit_done : exit_measured_wrong;
+  if (maps != Drawing::drawn) return "";
+  const std::filesystem::path folder = std::filesystem::absolute(page).parent_path();
+  return std::filesystem::absolute(out / "figures").lexically_relative(folder).string();
 }
 
-int check_count(CheckOptions& options) {
-  auto request = request_of<check::SoakRequest>(options);
-  request.pairs = options.count;
-  if (options.selection.is_unsaid()) options.selection.pair = "certified";
-  check::select_cases(options.selection, "none", request);
-  if (request.period() == 0) {
-    throw base::InputError(
-        "--count has no cases for these algorithms; expected some of another kind than box");
+// `command` is said to have made the page.
+int run(const CheckOptions& options, check::CheckMode mode, const std::string& command) {
+  if (!options.certificates.empty()) return verify(options.certificates);
+  const check::CheckRequest request = request_of(options, mode);
+  const bool has_axes = mode == check::CheckMode::axes;
+  if (!options.page.empty()) {
+    // The page may be in the folder that is about to be made, as that of axes is.
+    std::error_code ignored;
+    if (has_axes) std::filesystem::create_directories(request.out, ignored);
+    files::check_output(options.page);
   }
-  request.out = results_folder(options.out, "soak");
-  const check::SoakResult result = check::run_soak(request);
-  if (result.interrupted) return end_interrupted();
-  print_summary(request.out, fmt::format("{}\nBy regime: {}\n",
-                                         check::soak_text(request, result, base::page_width()),
-                                         (request.out / "soak.csv").string()));
-  return result.ours_are_wrong(request) ? exit_measured_wrong : exit_done;
+  if (!options.saved.empty()) {
+    files::check_output(options.saved);
+    fmt::print("{} certificates in {}\n", check::save_certificates(request, options.saved),
+               options.saved);
+    return exit_done;
+  }
+  const check::CheckReport report = check::run_check(request);
+  if (report.interrupted) return end_interrupted();
+  print_summary(
+      request.out,
+      fmt::format("{}\nRows in {} and families.csv of {}; case files of what is wrong in {}\n",
+                  check::summary_text(report, base::page_width()), names_of(mode).rows,
+                  request.out.string(), (request.out / "failures").string()));
+  const std::string maps = has_axes ? draw_maps(request.out, options.page) : "";
+  if (!options.page.empty()) {
+    files::write_text(options.page, check::page_text(report, command, maps));
+  }
+  return report.ours_wrong().empty() ? exit_done : exit_measured_wrong;
 }
 
 // Adds an option for each kind by its old name.
@@ -182,7 +160,7 @@ void add_check(Arguments command) {
                     .value_optional();
   Option count =
       command
-          .number("--count", options->count,
+          .number("--count", common.count,
                   "Count the verdicts of so many cases, spread over the regimes and families, a "
                   "thousand of one at a time; of `certified` if no algorithm is named")
           .within(1, 1'000'000'000'000)
@@ -243,9 +221,9 @@ void add_check(Arguments command) {
     count.excludes(command.option(name));
   }
   command.job([options, command, axes, count] {
-    if (axes.given()) return check_axes(*options, command.shell_line("--resume"));
-    if (count.given()) return check_count(*options);
-    return check_cases(*options, command.shell_line("--out"));
+    if (axes.given()) return run(*options, check::CheckMode::axes, command.shell_line("--resume"));
+    const auto mode = count.given() ? check::CheckMode::count : check::CheckMode::cases;
+    return run(*options, mode, command.shell_line("--out"));
   });
 }
 

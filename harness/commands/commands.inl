@@ -9,7 +9,7 @@
 //   that every command needs (harness/CMakeLists.txt), belong to `touchstone_more`.
 // TOUCHSTONE_MORE_OPTION(name, "--option"), TOUCHSTONE_MORE_KEY(name, "key")
 //   A command of `touchstone` that `touchstone_more` must do, or help with, where it is given this
-//   option, or a file with this key at its top.
+//   option, or a file with this key at its top or in a [[group]].
 // TOUCHSTONE_NESTED(name, word, "what it takes", "one line about it")
 //   A command within a command of `touchstone_more`, which has a function add_NAME_WORD.
 // TOUCHSTONE_RENAMED(old name, "what to write instead, behind the name of the program")
@@ -48,6 +48,7 @@ TOUCHSTONE_MORE_KEY(run, "trade")
 TOUCHSTONE_MORE_KEY(run, "check")
 TOUCHSTONE_MORE_KEY(run, "stress")
 TOUCHSTONE_MORE_KEY(run, "soak")
+TOUCHSTONE_MORE_KEY(run, "kind")
 TOUCHSTONE_MORE_KEY(run, "cells")
 TOUCHSTONE_COMMAND(touchstone, compare, "OLD NEW", "Measure", "Compare two results, or two builds of this program: is B slower than A?")
 TOUCHSTONE_FILES(compare, "compare")

@@ -29,7 +29,6 @@
 #include "harness/kinds/kind.h"
 #include "harness/kinds/questions.h"
 #include "harness/kinds/selection.h"
-#include "harness/kinds/told_kind.h"
 #include "harness/process/isolated_lines.h"
 #include "harness/report/case_view.h"
 

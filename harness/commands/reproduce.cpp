@@ -111,7 +111,7 @@ int reproduce(const ReproduceOptions& options) {
   }
   if (!options.results.empty() && stats::is_of_cells(options.results)) {
     throw base::InputError(options.results, 0,
-                           "is of a campaign with [cells], whose tables state no band; expected "
+                           "is of a campaign with kinds, whose tables state no band; expected "
                            "results of a campaign of scenes (`touchstone compare` takes cells)");
   }
   const std::filesystem::path results = options.results.empty()

@@ -67,8 +67,8 @@ campaign::Campaign campaign_of(const RunOptions& options) {
         "--scene {0}: its bodies move far within a frame, and this command asks what they do at "
         "the "
         "frames alone; expected touchstone advise {0} --front --motion, or touchstone run with a "
-        "file of "
-        "[cells] of the kind motion, as datasets/campaigns/motion.toml",
+        "file whose "
+        "[[group]] is of the kind motion, as datasets/campaigns/motion.toml",
         file));
   }
   campaign::Campaign campaign;
@@ -160,7 +160,7 @@ int run_other_file(const RunOptions& options) {
       options.quick) {
     throw base::InputError(
         options.campaign +
-        " is no campaign of [[group]]; expected no options but --out, --resume, --threads and "
+        " is no campaign of scenes; expected no options but --out, --resume, --threads and "
         "--report with such a file");
   }
   hand_over();
@@ -172,7 +172,9 @@ bool is_other_file(const std::string& file) {
 #define TOUCHSTONE_MORE_KEY(name, key) key,
 #include "harness/commands/commands.inl"
   });
-  return std::ranges::any_of(keys, [&](std::string_view key) { return files::has_key(file, key); });
+  return std::ranges::any_of(keys, [&](std::string_view key) {
+    return files::has_key(file, key) || files::has_key(file, "group." + std::string(key));
+  });
 }
 
 // Returns the names that the user wrote out in a list of algorithms, without words such as `ours`.

@@ -75,7 +75,7 @@ void write_tables(const ShowOptions& options) {
     const ShowOptions usual;
     if (options.noisy || options.band != usual.band || options.depth_error != usual.depth_error) {
       throw base::InputError(options.results, 0,
-                             "is of a campaign with [cells], whose tables know no --noisy, --band "
+                             "is of a campaign with kinds, whose tables know no --noisy, --band "
                              "and --depth-error; expected none of them");
     }
     write_of_cells(is_folder ? of : of.parent_path(), folder);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "harness/base/input_file.h"
@@ -46,7 +47,14 @@ toml::table parse_toml(const std::filesystem::path& path) {
 }
 
 bool has_key(const std::filesystem::path& file, std::string_view key) {
-  return parse_toml(file).contains(key);
+  const toml::table root = parse_toml(file);
+  const std::size_t dot = key.find('.');
+  if (dot == std::string_view::npos) return root.contains(key);
+  const toml::node* const tables = root.get(key.substr(0, dot));
+  if (tables == nullptr || !tables->is_array()) return false;
+  return std::ranges::any_of(*tables->as_array(), [&](const toml::node& node) {
+    return node.is_table() && node.as_table()->contains(key.substr(dot + 1));
+  });
 }
 
 void TomlTable::fail_at(const toml::node& node, std::string_view key,

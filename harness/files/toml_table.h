@@ -29,7 +29,8 @@ inline constexpr Limits positive{.low = std::numeric_limits<double>::min()};
 
 // Throws InputError if the file cannot be read or is not TOML.
 toml::table parse_toml(const std::filesystem::path& file);
-// True where the file has this key outside of any table. Throws as parse_toml.
+// True where the file has this key outside of any table, or with the key `TABLE.KEY` where a table of the array
+// TABLE has it. Throws as parse_toml.
 bool has_key(const std::filesystem::path& file, std::string_view key);
 
 // Each read makes its key a known one; `finish` rejects unknown keys. A read without a fallback

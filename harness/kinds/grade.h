@@ -43,6 +43,20 @@ struct GradeCount {
   std::int64_t silent() const { return missed + false_hits + inexact; }
 };
 
+// The columns that every file of such counts has.
+template <class Counts, class Visit>
+void grade_columns(Counts& row, const Visit& visit) {
+  visit("near", row.near,
+        "Contacts that are none, of what comes within the algorithm's tolerance; no fault.");
+  visit("missed", row.missed, "Contacts that it does not report.");
+  visit("false_hits", row.false_hits,
+        "Contacts that it reports where there is none, not within its tolerance.");
+  visit("inexact", row.inexact,
+        "Answers whose verdict is right, and a number, a pair, a triangle or a bound is not.");
+  visit("bound", row.bound, "Of these, upper bounds of an algorithm that gives them by design.");
+  visit("gave_up", row.gave_up, "Answers that its status gives up.");
+}
+
 // True if an algorithm returns this status with an answer that it means: `ok`, or no status at all.
 constexpr bool is_meant(Status status) {
   return status == Status::ok || status == Status::not_reported;

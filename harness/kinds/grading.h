@@ -1,10 +1,11 @@
-// What the batches of all kinds share.
+// What the batches of all kinds share, and what kinds without batches have instead.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -85,5 +86,26 @@ inline process::IsolationLimits batch_limits(double time_limit) {
 inline bool is_asked(CaseForm form, std::uint64_t index) {
   return form == CaseForm::as_drawn || index % 5 == 0;
 }
+
+// Kinds that have no families and no timed sets, and are asked with a user's own file alone.
+class AskedOnly : public Kind {
+ public:
+  using Kind::Kind;
+
+  std::vector<Contestant> contestants(const std::vector<std::string>& /*names*/,
+                                      std::span<const Precision> /*scalars*/) const final {
+    throw std::logic_error("a kind without families has no contestants");
+  }
+  std::unique_ptr<Batch> draw(const Family& /*family*/, const BatchRange& /*range*/) const final {
+    throw std::logic_error("a kind without families draws nothing");
+  }
+  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
+                                     const std::filesystem::path& /*home*/) const final {
+    table.fail("kind", "these have no timed sets of this form");
+  }
+
+ private:
+  std::vector<Family> list_families() const final { return {}; }
+};
 
 }  // namespace touchstone::kinds

@@ -9,6 +9,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
+#include "harness/kinds/grade.h"
 
 namespace touchstone::kinds {
 
@@ -25,21 +26,20 @@ std::span<const Kind* const> asked_kinds() {
   return all;
 }
 
-const Kind* find_kind(std::string_view name) {
-  const auto all = kinds();
-  const auto at = std::ranges::find_if(
-      all, [&](const Kind* kind) { return kind->name() == name || kind->old_name() == name; });
-  return at == all.end() ? nullptr : *at;
+namespace {
+
+const Kind* find_in(std::span<const Kind* const> list, std::string_view name) {
+  const auto words = registry::kind_named(name);
+  if (!words) return nullptr;
+  const auto at =
+      std::ranges::find_if(list, [&](const Kind* kind) { return kind->name() == words->word; });
+  return at == list.end() ? nullptr : *at;
 }
 
-const Kind* find_asked_kind(std::string_view name) {
-  const auto words = registry::kind_named(name);
-  const std::string_view word = words ? words->word : name;
-  const auto all = asked_kinds();
-  const auto at = std::ranges::find_if(
-      all, [&](const Kind* kind) { return kind->name() == word || kind->old_name() == word; });
-  return at == all.end() ? nullptr : *at;
-}
+}  // namespace
+
+const Kind* find_kind(std::string_view name) { return find_in(kinds(), name); }
+const Kind* find_asked_kind(std::string_view name) { return find_in(asked_kinds(), name); }
 
 bool Kind::verify(const std::string& proofs, const std::filesystem::path& /*file*/) const {
   throw base::InputError(proofs, 0, fmt::format("the kind {} has no proofs", name()));
@@ -100,6 +100,41 @@ void add_axis(std::vector<Family>& list, const std::string& axis,
   for (const AxisValue& at : values) {
     list.push_back({.name = axis + "-" + at.name, .group = "axes", .axis = axis, .value = at.name});
   }
+}
+
+void GradeCount::add(const Graded& graded, std::int64_t index) {
+  if (graded.grade == Grade::not_asked) return;
+  ++cases;
+  contacts += graded.is_contact ? 1 : 0;
+  bool is_bad = false;
+  switch (graded.grade) {
+    case Grade::not_asked: break;
+    case Grade::unresolved: ++unresolved; break;
+    case Grade::right: ++right; break;
+    case Grade::near: ++near; break;
+    case Grade::bound: ++bound; break;
+    case Grade::gave_up: ++gave_up; break;
+    case Grade::missed: ++missed, is_bad = true; break;
+    case Grade::false_hit: ++false_hits, is_bad = true; break;
+    case Grade::inexact: ++inexact, is_bad = true; break;
+    case Grade::failed: ++failed, is_bad = true; break;
+  }
+  if (is_bad && first_wrong < 0) first_wrong = index;
+}
+
+void GradeCount::add(const GradeCount& other) {
+  cases += other.cases;
+  contacts += other.contacts;
+  unresolved += other.unresolved;
+  right += other.right;
+  near += other.near;
+  missed += other.missed;
+  false_hits += other.false_hits;
+  inexact += other.inexact;
+  bound += other.bound;
+  gave_up += other.gave_up;
+  failed += other.failed;
+  if (first_wrong < 0) first_wrong = other.first_wrong;
 }
 
 }  // namespace touchstone::kinds

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "algorithms/registry.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/batch.h"
-#include "harness/kinds/family.h"
 #include "harness/kinds/timed_set.h"
 
 namespace touchstone::kinds {
@@ -23,8 +23,9 @@ struct QueryOption;
 class Kind {
  public:
   struct Words {
-    std::string_view name;      // "point": in options, columns, campaigns, folders
-    std::string_view old_name;  // "points": what an option or a key was called before
+    KindWords registry;  // "point": in options, columns, campaigns, folders
+    // What an option or a key was called before; empty: the first other word of the registry.
+    std::string_view old_name = {};
     std::string_view title;     // "Points": a heading
     std::string_view contract;  // "point query": what messages call its algorithms
     // What its grades mean: what contact is, and the margins and tolerances, the same for every origin.
@@ -38,8 +39,10 @@ class Kind {
   Kind(const Kind&) = delete;
   Kind& operator=(const Kind&) = delete;
 
-  std::string_view name() const { return words_.name; }
-  std::string_view old_name() const { return words_.old_name; }
+  std::string_view name() const { return words_.registry.word; }
+  std::string_view old_name() const {
+    return words_.old_name.empty() ? words_.registry.other.front() : words_.old_name;
+  }
   std::string_view title() const { return words_.title; }
   std::string_view contract() const { return words_.contract; }
   std::string_view legend() const { return words_.legend; }
@@ -82,9 +85,9 @@ std::span<const Kind* const> kinds();
 // These, and those that are asked alone.
 std::span<const Kind* const> asked_kinds();
 
-// Returns the kind that has families with this name or old name; null if there is none.
+// Returns the kind that has families with this word of the registry; null if there is none.
 const Kind* find_kind(std::string_view name);
-// Returns the kind with this name, old name, or other word of the registry; null if there is none.
+// Returns any kind with it.
 const Kind* find_asked_kind(std::string_view name);
 
 // The families of all kinds, in the order of kinds(): those that are no values of axes, and those that are.

@@ -1,4 +1,4 @@
-// A user's questions of one kind: read from a file, asked, and answered in rows, lines and proofs.
+// What of a user's own file is asked, of every kind, and how its kind is told.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,14 @@
 #include "harness/files/concave/concave_cases.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
+#include "harness/kinds/kind.h"
+#include "harness/kinds/selection.h"
+#include "harness/process/isolate.h"
 #include "harness/process/isolated_lines.h"
 
 namespace touchstone::kinds {
+
+// A user's questions of one kind: read from a file, asked, and answered in rows, lines and proofs.
 
 // An option of `query` that some kinds have.
 struct QueryOption {
@@ -146,5 +151,68 @@ void tell_extent(const std::string& file, std::span<const Vec3d> vertices);
 namespace option {
 extern const QueryOption scalar, tolerance, max_iterations, target, saved;
 }
+
+// The kind of the questions in a file, and of the proofs in one, by their keys or columns.
+
+// `word` is the kind's name, which decides, or empty. Pairs are those of convex bodies, of any bodies, or moving ones;
+// rays are cast at a mesh, or at a scene where --in names one. Throws InputError where the file does not tell, and
+// for a word that names no kind.
+const Kind& told_kind(const QuestionInput& input, const std::string& word);
+
+// The same for a file of proofs.
+const Kind& told_kind_of_proofs(const std::filesystem::path& proofs, const std::string& word);
+
+// Questions that are answered one by one, each by an algorithm in a child process.
+
+// `Entry` is the registry's, `Answer` is trivially copyable and has a status, which is `unsupported` in a new one.
+template <class Entry, class Answer>
+class AnswersOf : public Questions {
+ public:
+  std::size_t contestants() const final { return asked_.size(); }
+  const AlgorithmInfo& info(std::size_t contestant) const final {
+    return asked_[contestant].entry->info;
+  }
+
+ protected:
+  struct Asked {
+    const Entry* entry;
+    Precision scalar = Precision::float64;
+    std::vector<Answer> answers = {};  // one for each question
+  };
+
+  void select(const std::vector<std::string>& names, std::string_view what, Precision scalar) {
+    for (const Entry* entry : kinds::select(registry::entries<Entry>(), names, what)) {
+      asked_.push_back({.entry = entry, .scalar = scalar});
+    }
+  }
+  const Answer& answer(std::size_t question, std::size_t contestant) const {
+    return asked_[contestant].answers[question];
+  }
+
+  // Asks the questions that `takes`. `setup` returns, in the child process, a function from a question to its answer.
+  template <class Takes, class Setup>
+  std::vector<AskFailure> ask_each(std::size_t contestant, double seconds, const Takes& takes,
+                                   const Setup& setup) {
+    Asked& asked = asked_[contestant];
+    asked.answers.assign(size(), Answer{});
+    std::vector<std::size_t> taken;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (takes(i)) taken.push_back(i);
+    }
+    const auto solved = process::isolated_answers<Answer>(
+        taken.size(), {.item_seconds = seconds},
+        [&] { return [&taken, solve = setup()](std::size_t item) { return solve(taken[item]); }; });
+    for (std::size_t item = 0; item < taken.size(); ++item) {
+      asked.answers[taken[item]] = solved.answers[item];
+    }
+    std::vector<AskFailure> failures;
+    for (const process::IsolationFailure& failure : solved.failures) {
+      failures.push_back({label(taken[failure.item]), failure.reason()});
+    }
+    return failures;
+  }
+
+  std::vector<Asked> asked_;
+};
 
 }  // namespace touchstone::kinds

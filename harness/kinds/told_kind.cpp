@@ -1,5 +1,5 @@
 // Looks at the first lines of a file, and for pairs at all.
-#include "harness/kinds/told_kind.h"
+#include "harness/kinds/questions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

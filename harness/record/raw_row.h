@@ -270,7 +270,7 @@ void columns(Row& row, Visit visit) {
         "Samples of a broad phase: seconds of the window's longest frame, its build or update and "
         "find_pairs together; in the sample's last row.");
   visit("query_kind", newer(row.query_kind),
-        "The kind of query, such as `ray`, in rows of a campaign with [cells]; empty in those of "
+        "The kind of query, such as `ray`, in rows of a group of a kind; empty in those of "
         "scenes. Such rows have no scene, bodies, boxes, frame, broad and narrow.");
   visit("input", newer(row.input),
         "What the queries are about, such as a mesh: `group` in set_times.csv.");

@@ -6,14 +6,14 @@
 #include <algorithm>
 
 #include "harness/base/error.h"
-#include "harness/check/requests/case_files.h"
+#include "harness/check/check_file.h"
 #include "harness/files/toml_table.h"
 
 namespace touchstone::shards {
 
 std::unique_ptr<Work> read_work(const std::filesystem::path& file,
                                 const std::filesystem::path& home) {
-  if (check::has_case_work(file)) return case_work(file);
+  if (check::has_check(file)) return check_work(file);
   if (files::has_key(file, "trade")) return trade_work(file, home);
   return campaign_work(file, home);
 }

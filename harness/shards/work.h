@@ -47,7 +47,7 @@ class Work {
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
 
-  virtual std::string_view kind() const = 0;    // "run", "check", "stress", "soak" or "trade"
+  virtual std::string_view kind() const = 0;    // "run", "check" or "trade"
   virtual const std::string& name() const = 0;  // the file's
   virtual std::int64_t units() const = 0;
   // True if rows hold times. Then each unit is a part of its own, done by one machine that does
@@ -85,7 +85,7 @@ std::unique_ptr<Work> read_work(const std::filesystem::path& file,
 // The kinds of work, for read_work.
 std::unique_ptr<Work> campaign_work(const std::filesystem::path& file,
                                     const std::filesystem::path& home);
-std::unique_ptr<Work> case_work(const std::filesystem::path& file);
+std::unique_ptr<Work> check_work(const std::filesystem::path& file);
 std::unique_ptr<Work> trade_work(const std::filesystem::path& file,
                                  const std::filesystem::path& home);
 

@@ -1,4 +1,4 @@
-// The table of all axes, and the cells of a sweep.
+// The table of all axes, and the regimes of their values.
 #include "harness/check/axes/axes.h"
 
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ bool has_depth(double value, const oracle::Measure& exact, double size) {
   return exact.upper < -0.3 * value * size && exact.lower > -1.1 * value * size;
 }
 
-std::vector<StressAxis> all_axes() {
+std::vector<Axis> all_axes() {
   return {
       {"scale-down", "metres", "both bodies so large", down_to(12), true, draw_at_scale},
       {"scale-up", "metres", "both bodies so large", up_to(12), true, draw_at_scale},
@@ -90,54 +90,61 @@ std::vector<StressAxis> all_axes() {
 
 }  // namespace
 
-std::uint64_t StressAxis::most_cases(double value) const {
+std::uint64_t Axis::most_cases(double value) const {
   if (name != "vertices" || value < 1e4) return ~std::uint64_t{0};
   return value < 1e5 ? 12 : 6;
 }
 
-std::span<const StressAxis> axes() {
-  static const std::vector<StressAxis> list = all_axes();
+std::span<const Axis> axes() {
+  static const std::vector<Axis> list = all_axes();
   return list;
 }
 
-std::vector<const StressAxis*> select_axes(const std::string& names) {
-  std::vector<const StressAxis*> chosen;
+std::vector<Regime> regimes_of(const Axis& axis) {
+  std::vector<Regime> regimes;
+  for (std::size_t place = 0; place < axis.values.size(); ++place) {
+    regimes.push_back({.name = fmt::format("stress-{}-{}", axis.name, axis.values[place].name),
+                       .group = axis.name,
+                       .what = axis.what,
+                       .extreme = axis.extreme,
+                       .parameter = axis.values[place].value,
+                       .draw = axis.draw,
+                       .axis = &axis,
+                       .place = place});
+  }
+  return regimes;
+}
+
+std::vector<const Regime*> select_axes(const std::string& names) {
+  static const std::vector<std::vector<Regime>> all = [] {
+    std::vector<std::vector<Regime>> list;
+    for (const Axis& axis : axes()) list.push_back(regimes_of(axis));
+    return list;
+  }();
+  std::vector<const Regime*> chosen;
+  const auto choose = [&](const Axis& axis) {
+    for (const Regime& one : all[static_cast<std::size_t>(&axis - axes().data())]) {
+      if (std::ranges::find(chosen, &one) == chosen.end()) chosen.push_back(&one);
+    }
+  };
   if (names.empty()) {
-    for (const StressAxis& axis : axes()) chosen.push_back(&axis);
+    for (const Axis& axis : axes()) choose(axis);
     return chosen;
   }
   for (const std::string& name : kinds::split_names(names)) {
-    const auto at = std::ranges::find(axes(), name, &StressAxis::name);
+    const auto at = std::ranges::find(axes(), name, &Axis::name);
     if (at == axes().end()) {
       std::vector<std::string_view> known;
-      for (const StressAxis& axis : axes()) known.push_back(axis.name);
+      for (const Axis& axis : axes()) known.push_back(axis.name);
       for (const kinds::Family* family : kinds::axis_families()) {
         if (known.back() != family->axis) known.push_back(family->axis);
       }
       throw base::InputError(
           fmt::format("no axis is called '{}'; expected some of {}", name, fmt::join(known, ", ")));
     }
-    if (std::ranges::find(chosen, &*at) == chosen.end()) chosen.push_back(&*at);
+    choose(*at);
   }
   return chosen;
-}
-
-std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes) {
-  std::vector<StressCell> cells;
-  for (const StressAxis* axis : axes) {
-    for (std::size_t place = 0; place < axis->values.size(); ++place) {
-      const kinds::AxisValue& value = axis->values[place];
-      cells.push_back({axis,
-                       place,
-                       {.name = fmt::format("stress-{}-{}", axis->name, value.name),
-                        .group = axis->name,
-                        .what = axis->what,
-                        .extreme = axis->extreme,
-                        .parameter = value.value,
-                        .draw = axis->draw}});
-    }
-  }
-  return cells;
 }
 
 }  // namespace touchstone::check

@@ -1,4 +1,4 @@
-// The axes of the stress sweep: along each, one property of a pair grows to its extreme.
+// The axes of pairs: along each, one property of a pair grows to its extreme.
 //
 // Everything else stays mild: bodies of a metre whose sides are within a factor of four of each
 // other, near the origin, at gaps and depths of a tenth to a thousandth. So the first value at
@@ -14,11 +14,11 @@
 
 #include "algorithms/oracle/oracle.h"
 #include "harness/check/regimes/regimes.h"
-#include "harness/kinds/family.h"
+#include "harness/kinds/batch.h"
 
 namespace touchstone::check {
 
-struct StressAxis {
+struct Axis {
   std::string name;                      // "scale-down": lower case, words joined by '-'
   std::string unit;                      // unit of the values, in words
   std::string what;                      // one line of description
@@ -32,23 +32,19 @@ struct StressAxis {
   std::uint64_t most_cases(double value) const;
 };
 
-// A value of an axis, and the regime that draws its cases.
-struct StressCell {
-  const StressAxis* axis = nullptr;
-  std::size_t place = 0;  // place in the axis' values
-  Regime regime;          // its parameter is the value
+inline const kinds::AxisValue& value_of(const Regime& regime) {
+  return regime.axis->values[regime.place];
+}
 
-  const kinds::AxisValue& value() const { return axis->values[place]; }
-};
+std::span<const Axis> axes();
+// Returns the regimes of an axis, one for each of its values, which draw their cases. The axis must outlive
+// the result.
+std::vector<Regime> regimes_of(const Axis& axis);
+// Returns the regimes of the axes of these names, joined by commas, in the order named; of all if `names`
+// is empty. Throws base::InputError for a name that there is not.
+std::vector<const Regime*> select_axes(const std::string& names);
 
-std::span<const StressAxis> axes();
-// Returns the axes of these names, joined by commas, in the order named; all if `names` is empty.
-// Throws base::InputError for a name that there is not.
-std::vector<const StressAxis*> select_axes(const std::string& names);
-// Returns the cells of these axes, in order. The axes must outlive the result.
-std::vector<StressCell> cells_of(std::span<const StressAxis* const> axes);
-
-// A slot of a cell has this many case indices: it takes the first case that is accepted.
+// A slot of a value has this many case indices: it takes the first case that is accepted.
 inline constexpr std::uint64_t tries = 8;
 inline std::uint64_t slot_of(std::uint64_t index) { return index / tries; }
 

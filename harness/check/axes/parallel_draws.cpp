@@ -7,10 +7,8 @@
 #include "harness/base/plain_math.h"
 #include "harness/check/axes/axes.h"
 #include "harness/check/axes/axis_draws.h"
-#include "harness/check/axes/mild_pair.h"
-#include "harness/check/axes/stress_shapes.h"
 #include "harness/check/regimes/check_shapes.h"
-#include "harness/check/regimes/placement.h"
+#include "harness/check/regimes/features.h"
 #include "harness/check/regimes/regime_draws.h"
 #include "harness/geometry/signed_permutation.h"
 

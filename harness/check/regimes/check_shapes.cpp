@@ -9,7 +9,6 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
-#include "harness/check/regimes/hull_pool.h"
 
 namespace touchstone::check {
 namespace {

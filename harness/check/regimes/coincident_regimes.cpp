@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "harness/base/plain_math.h"
-#include "harness/check/regimes/grid_bodies.h"
-#include "harness/check/regimes/placement.h"
+#include "harness/check/regimes/features.h"
 #include "harness/check/regimes/regime_draws.h"
 
 namespace touchstone::check {

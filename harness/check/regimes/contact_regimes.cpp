@@ -5,7 +5,7 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
-#include "harness/check/regimes/placement.h"
+#include "harness/check/regimes/features.h"
 #include "harness/check/regimes/regime_draws.h"
 #include "harness/geometry/signed_permutation.h"
 

@@ -1,5 +1,5 @@
 // Builds bodies on a grid and makes them touch exactly.
-#include "harness/check/regimes/grid_bodies.h"
+#include "harness/check/regimes/regime_draws.h"
 
 #include <algorithm>
 #include <array>

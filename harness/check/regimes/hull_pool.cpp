@@ -1,5 +1,5 @@
 // Builds the hulls of generated cases and keeps them.
-#include "harness/check/regimes/hull_pool.h"
+#include "harness/check/regimes/check_shapes.h"
 
 #include <array>
 #include <map>

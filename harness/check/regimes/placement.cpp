@@ -1,5 +1,5 @@
 // Places two bodies at a given gap or depth, with extended precision.
-#include "harness/check/regimes/placement.h"
+#include "harness/check/regimes/features.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 // rotation to doubles allows; the oracle computes the value achieved.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 
 namespace touchstone::check {
 
+struct Axis;
 struct Regime;
 
 // The input of a draw.
@@ -41,6 +43,9 @@ struct Regime {
   // in metres, distance in metres, ratio.
   double parameter = 0;
   RegimeCase (*draw)(RegimeDraw&) = nullptr;
+  // Of a regime that is a value of an axis (axes.h), and its place among the values.
+  const Axis* axis = nullptr;
+  std::size_t place = 0;
 };
 
 // Returns all regimes, grouped, in a stable order.

@@ -9,7 +9,6 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/plain_math.h"
-#include "harness/check/regimes/grid_bodies.h"
 #include "harness/check/regimes/regime_draws.h"
 #include "harness/geometry/signed_permutation.h"
 

@@ -1,4 +1,4 @@
-// touchstone run: a shard of a plan, or a file with a table [trade], [check] or [cells].
+// touchstone run: a shard of a plan, or a file with a table [trade] or [check], or a [[group]] of a kind.
 #include <fmt/format.h>
 #include <sched.h>
 
@@ -7,7 +7,7 @@
 
 #include "harness/base/error.h"
 #include "harness/cells/read_cells.h"
-#include "harness/check/requests/case_run.h"
+#include "harness/check/check_file.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures/page.h"
@@ -67,13 +67,13 @@ int run_trades(const RunFileOptions& options) {
   return status;
 }
 
-int run_cases(const RunFileOptions& options) {
-  check::CaseFile file = check::read_case_file(options.file);
-  const std::filesystem::path folder = results_folder(options.out, file.name);
-  file.common().out = folder;
-  file.common().resume = options.resume;
-  file.common().workers = options.threads;
-  const check::CaseEnd end = check::run_case_file(file);
+int run_check_file(const RunFileOptions& options) {
+  auto [name, request] = check::read_check_file(options.file);
+  const std::filesystem::path folder = results_folder(options.out, name);
+  request.out = folder;
+  request.resume = options.resume;
+  request.workers = options.threads;
+  const check::CheckEnd end = check::run_and_tell(request);
   if (end.interrupted) return end_interrupted();
   print_summary(folder, fmt::format("{}\nRows in {}\n", end.text, folder.string()));
   if (options.with_page) make_page(folder);
@@ -97,7 +97,7 @@ int run_cells(const RunFileOptions& options) {
 int run_file(const RunFileOptions& options, const Option& threads) {
   if (!options.plan.empty()) return run_shard(options);
   const bool is_of_cells = cells::has_cells(options.file);
-  if (!is_of_cells && check::has_case_work(options.file)) return run_cases(options);
+  if (!is_of_cells && check::has_check(options.file)) return run_check_file(options);
   expect_not_given({threads}, "with a shard, or a table [check] alone");
   return is_of_cells ? run_cells(options) : run_trades(options);
 }
@@ -107,7 +107,8 @@ int run_file(const RunFileOptions& options, const Option& threads) {
 void add_run_file(Arguments command) {
   const auto options = std::make_shared<RunFileOptions>();
   const Option file =
-      command.text("campaign", options->file, "A file with a table [trade], [check] or [cells]");
+      command.text("campaign", options->file,
+                   "A file with a table [trade] or [check], or a [[group]] of a kind");
   command.text("--out", options->out, "Folder (default: results/local/NAME in the project)")
       .needs(file);
   command
@@ -118,9 +119,8 @@ void add_run_file(Arguments command) {
             "Go on with the work that was stopped in the folder of --out; not for trades")
       .needs(file);
   add_shard(command, options->plan, options->shard).excludes(file);
-  const Option threads =
-      add_threads(command, options->threads,
-                  "Processes that share a check, a sweep or a soak (default: one a processor)");
+  const Option threads = add_threads(command, options->threads,
+                                     "Processes that share a check (default: one a processor)");
   command.job([options, threads] { return run_file(*options, threads); });
 }
 

@@ -1,5 +1,5 @@
 // Runs a broad phase in a child process, and keeps its pairs in a temporary file.
-#include "harness/kinds/box/box_contender.h"
+#include "harness/kinds/box/box_kind.h"
 
 #include <fmt/format.h>
 

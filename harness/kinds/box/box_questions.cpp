@@ -1,5 +1,5 @@
 // What is asked of boxes, frame by frame: which of them overlap.
-#include "harness/kinds/box/box_questions.h"
+#include "harness/kinds/box/box_kind.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,7 @@
 #include "harness/base/error.h"
 #include "harness/base/hash.h"
 #include "harness/files/csv.h"
-#include "harness/kinds/asked_only.h"
-#include "harness/kinds/box/box_contender.h"
+#include "harness/kinds/grading.h"
 #include "harness/kinds/selection.h"
 #include "harness/scene/box_frames.h"
 
@@ -239,8 +238,7 @@ class BoxQuestions final : public Questions {
 class BoxKind final : public AskedOnly {
  public:
   BoxKind()
-      : AskedOnly({.name = "box",
-                   .old_name = "broad",
+      : AskedOnly({.registry = kind_words<BroadPhaseEntry>,
                    .title = "Boxes",
                    .contract = "broad phase",
                    .legend = "",

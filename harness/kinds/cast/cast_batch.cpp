@@ -9,11 +9,8 @@
 #include <utility>
 
 #include "harness/files/text_file.h"
-#include "harness/kinds/cast/cast_families.h"
-#include "harness/kinds/cast/cast_forms.h"
 #include "harness/kinds/cast/cast_grade.h"
-#include "harness/kinds/cast/cast_questions.h"
-#include "harness/kinds/cast/cast_sets.h"
+#include "harness/kinds/cast/cast_kind.h"
 #include "harness/kinds/grading.h"
 #include "harness/process/queries/solve_cast.h"
 
@@ -202,7 +199,7 @@ class CastKind final : public Kind {
  public:
   CastKind()
       : Kind(
-            {.name = "cast",
+            {.registry = kind_words<CastEntry>,
              .old_name = "cast",
              .title = "Moving bodies",
              .contract = "cast",

@@ -1,5 +1,5 @@
 // Draws moving bodies.
-#include "harness/kinds/cast/cast_families.h"
+#include "harness/kinds/cast/cast_kind.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Makes the forms.
-#include "harness/kinds/cast/cast_forms.h"
+#include "harness/kinds/cast/cast_kind.h"
 
 #include <optional>
 #include <utility>

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "algorithms/cast.h"
-#include "harness/kinds/cast/cast_truths.h"
+#include "harness/kinds/cast/cast_kind.h"
 #include "harness/kinds/grade.h"
 
 namespace touchstone::kinds {

@@ -1,5 +1,5 @@
 // What is asked of pairs of moving bodies: when they first touch.
-#include "harness/kinds/cast/cast_questions.h"
+#include "harness/kinds/cast/cast_kind.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "harness/base/error.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
-#include "harness/kinds/answers_of.h"
 #include "harness/kinds/proofs.h"
+#include "harness/kinds/questions.h"
 #include "harness/process/queries/solve_cast.h"
 
 namespace touchstone::kinds {

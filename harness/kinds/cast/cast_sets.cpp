@@ -14,9 +14,8 @@
 #include "harness/base/error.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/cast/cast_grade.h"
-#include "harness/kinds/cast/cast_sets.h"
+#include "harness/kinds/cast/cast_kind.h"
 #include "harness/kinds/set_keys.h"
 
 namespace touchstone::kinds {

@@ -1,5 +1,5 @@
 // Asks the oracle.
-#include "harness/kinds/cast/cast_truths.h"
+#include "harness/kinds/cast/cast_kind.h"
 
 #include <algorithm>
 #include <limits>

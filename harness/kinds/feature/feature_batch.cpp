@@ -7,10 +7,8 @@
 #include "algorithms/oracle/oracle.h"
 #include "harness/families/ccd_families.h"
 #include "harness/files/text_file.h"
-#include "harness/kinds/feature/feature_forms.h"
 #include "harness/kinds/feature/feature_grade.h"
-#include "harness/kinds/feature/feature_questions.h"
-#include "harness/kinds/feature/feature_sets.h"
+#include "harness/kinds/feature/feature_kind.h"
 #include "harness/kinds/grading.h"
 
 namespace touchstone::kinds {
@@ -237,8 +235,7 @@ class FeatureKind final : public Kind {
  public:
   FeatureKind()
       : Kind(
-            {.name = "feature",
-             .old_name = "ccd",
+            {.registry = kind_words<CcdEntry>,
              .title = "Continuous collision of features",
              .contract = "continuous collision",
              .legend =

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "harness/kinds/feature/feature_forms.h"
+#include "harness/kinds/feature/feature_kind.h"
 #include "harness/kinds/grading.h"
 
 namespace touchstone::kinds {

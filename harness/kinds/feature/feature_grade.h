@@ -4,7 +4,7 @@
 #include "algorithms/ccd.h"
 #include "algorithms/oracle/ccd/first_within.h"
 #include "algorithms/oracle/oracle.h"
-#include "harness/kinds/feature/feature_lengths.h"
+#include "harness/kinds/feature/feature_kind.h"
 #include "harness/kinds/grade.h"
 
 namespace touchstone::kinds {

@@ -1,5 +1,5 @@
 // What is asked of moving vertices, faces and edges: when they meet, and which contacts are missed.
-#include "harness/kinds/feature/feature_questions.h"
+#include "harness/kinds/feature/feature_kind.h"
 
 #include <fmt/format.h>
 

@@ -13,9 +13,8 @@
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
 #include "harness/files/motion/ccd_queries.h"
-#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/feature/feature_grade.h"
-#include "harness/kinds/feature/feature_sets.h"
+#include "harness/kinds/feature/feature_kind.h"
 #include "harness/kinds/set_keys.h"
 
 namespace touchstone::kinds {

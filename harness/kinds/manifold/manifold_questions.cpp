@@ -1,5 +1,5 @@
 // What is asked of pairs of bodies that touch: the points of their contact, and how good these are.
-#include "harness/kinds/manifold/manifold_questions.h"
+#include "harness/kinds/manifold/manifold_kind.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,9 +18,8 @@
 #include "harness/files/csv.h"
 #include "harness/files/text_file.h"
 #include "harness/grade/manifold/manifold_tally.h"
-#include "harness/kinds/answers_of.h"
-#include "harness/kinds/asked_only.h"
-#include "harness/kinds/manifold/settled_pairs.h"
+#include "harness/kinds/grading.h"
+#include "harness/kinds/questions.h"
 #include "harness/process/queries/solve_manifold.h"
 
 namespace touchstone::kinds {
@@ -229,8 +228,7 @@ class ManifoldQuestions final : public AnswersOf<ManifoldEntry, Manifold> {
 class ManifoldKind final : public AskedOnly {
  public:
   ManifoldKind()
-      : AskedOnly({.name = "manifold",
-                   .old_name = "manifolds",
+      : AskedOnly({.registry = kind_words<ManifoldEntry>,
                    .title = "Contact manifolds",
                    .contract = "contact manifold",
                    .legend = "",

@@ -1,5 +1,5 @@
 // Makes pairs of bodies that lie face on face, by family.
-#include "harness/kinds/manifold/settled_pairs.h"
+#include "harness/kinds/manifold/manifold_kind.h"
 
 #include <fmt/format.h>
 

@@ -10,10 +10,8 @@
 #include "harness/files/text_file.h"
 #include "harness/kinds/exact_forms.h"
 #include "harness/kinds/grading.h"
-#include "harness/kinds/mesh/mesh_families.h"
 #include "harness/kinds/mesh/mesh_grade.h"
-#include "harness/kinds/mesh/mesh_questions.h"
-#include "harness/kinds/mesh/mesh_sets.h"
+#include "harness/kinds/mesh/mesh_kind.h"
 
 namespace touchstone::kinds {
 namespace {
@@ -215,8 +213,7 @@ constexpr std::array<std::string_view, 3> mesh_tasks = {"intersect", "distance",
 class MeshKind final : public Kind {
  public:
   MeshKind()
-      : Kind({.name = "mesh",
-              .old_name = "concave",
+      : Kind({.registry = kind_words<ConcaveEntry>,
               .title = "Bodies that need not be convex",
               .contract = "concave phase",
               .legend =

@@ -1,5 +1,5 @@
 // Makes and verifies certificates of pairs of bodies.
-#include "harness/kinds/mesh/mesh_proofs.h"
+#include "harness/kinds/mesh/mesh_kind.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include "algorithms/oracle/certificates/parts/parts_certificate_check.h"
 #include "algorithms/oracle/concave/exact_parts_proofs.h"
 #include "harness/files/proofs/parts_certificates.h"
-#include "harness/kinds/mesh/mesh_questions.h"
 #include "harness/kinds/proofs.h"
 
 namespace touchstone::kinds {

@@ -1,5 +1,5 @@
 // What is asked of pairs of bodies that need not be convex.
-#include "harness/kinds/mesh/mesh_questions.h"
+#include "harness/kinds/mesh/mesh_kind.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,9 +17,8 @@
 #include "harness/base/file_text.h"
 #include "harness/base/hash.h"
 #include "harness/files/csv.h"
-#include "harness/kinds/answers_of.h"
-#include "harness/kinds/mesh/mesh_proofs.h"
 #include "harness/kinds/pair/pair_cases.h"
+#include "harness/kinds/questions.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::kinds {

@@ -11,9 +11,7 @@
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
 #include "harness/base/random.h"
-#include "harness/kinds/answer_hash.h"
-#include "harness/kinds/mesh/mesh_setup.h"
-#include "harness/kinds/mesh/sliding_sets.h"
+#include "harness/kinds/mesh/mesh_kind.h"
 #include "harness/kinds/set_keys.h"
 
 namespace touchstone::kinds {

@@ -13,11 +13,10 @@
 #include "harness/base/error.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
-#include "harness/kinds/answers_of.h"
-#include "harness/kinds/asked_only.h"
-#include "harness/kinds/mesh/mesh_proofs.h"
-#include "harness/kinds/mesh/mesh_questions.h"
+#include "harness/kinds/grading.h"
+#include "harness/kinds/mesh/mesh_kind.h"
 #include "harness/kinds/pair/pair_cases.h"
+#include "harness/kinds/questions.h"
 #include "harness/process/queries/solve_case.h"
 
 namespace touchstone::kinds {
@@ -164,8 +163,7 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
 class PairKind final : public AskedOnly {
  public:
   PairKind()
-      : AskedOnly({.name = "pair",
-                   .old_name = "narrow",
+      : AskedOnly({.registry = kind_words<NarrowPhaseEntry>,
                    .title = "Pairs of convex bodies",
                    .contract = "narrow phase",
                    .legend = "",

@@ -12,8 +12,7 @@
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/point/point_grade.h"
-#include "harness/kinds/point/point_questions.h"
-#include "harness/kinds/point/point_sets.h"
+#include "harness/kinds/point/point_kind.h"
 #include "harness/scene/writing/scene_writer.h"
 
 namespace touchstone::kinds {
@@ -126,8 +125,7 @@ class PointKind final : public Kind {
  public:
   PointKind()
       : Kind(
-            {.name = "point",
-             .old_name = "points",
+            {.registry = kind_words<PointQueryEntry>,
              .title = "Points",
              .contract = "point query",
              .legend =

@@ -1,5 +1,5 @@
 // What is asked of points at a mesh: the closest point, or the side of the surface.
-#include "harness/kinds/point/point_questions.h"
+#include "harness/kinds/point/point_kind.h"
 
 #include <fmt/format.h>
 
@@ -20,8 +20,8 @@
 #include "harness/files/proofs/mesh_certificates.h"
 #include "harness/geometry/mesh.h"
 #include "harness/geometry/shapes/compound.h"
-#include "harness/kinds/answers_of.h"
 #include "harness/kinds/proofs.h"
+#include "harness/kinds/questions.h"
 
 namespace touchstone::kinds {
 namespace {

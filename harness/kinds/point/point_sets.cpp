@@ -12,10 +12,9 @@
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
 #include "harness/geometry/shapes/compound.h"
-#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/mesh_inputs.h"
 #include "harness/kinds/point/point_grade.h"
-#include "harness/kinds/point/point_sets.h"
+#include "harness/kinds/point/point_kind.h"
 #include "harness/kinds/set_keys.h"
 
 namespace touchstone::kinds {

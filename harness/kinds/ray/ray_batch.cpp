@@ -12,10 +12,8 @@
 #include "harness/families/aimed_rays.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
-#include "harness/kinds/ray/ray_file.h"
 #include "harness/kinds/ray/ray_grade.h"
-#include "harness/kinds/ray/ray_questions.h"
-#include "harness/kinds/ray/ray_sets.h"
+#include "harness/kinds/ray/ray_kind.h"
 #include "harness/scene/writing/scene_writer.h"
 
 namespace touchstone::kinds {
@@ -130,8 +128,7 @@ class RayKind final : public Kind {
  public:
   RayKind()
       : Kind(
-            {.name = "ray",
-             .old_name = "rays",
+            {.registry = kind_words<RayCastEntry>,
              .title = "Rays",
              .contract = "ray cast",
              .legend =

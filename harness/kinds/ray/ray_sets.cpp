@@ -12,10 +12,9 @@
 #include "algorithms/registry.h"
 #include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/kinds/answer_hash.h"
 #include "harness/kinds/mesh_inputs.h"
 #include "harness/kinds/ray/ray_grade.h"
-#include "harness/kinds/ray/ray_sets.h"
+#include "harness/kinds/ray/ray_kind.h"
 #include "harness/kinds/set_keys.h"
 
 namespace touchstone::kinds {

@@ -13,8 +13,7 @@
 #include "harness/geometry/shapes/scaled_shape.h"
 #include "harness/kinds/exact_forms.h"
 #include "harness/kinds/grading.h"
-#include "harness/kinds/ray/ray_file.h"
-#include "harness/kinds/ray/ray_questions.h"
+#include "harness/kinds/ray/ray_kind.h"
 #include "harness/kinds/scene_ray/scene_ray_questions.h"
 #include "harness/scene/writing/scene_writer.h"
 
@@ -287,8 +286,7 @@ constexpr std::array<std::string_view, 2> scene_ray_tasks = {"closest", "any"};
 class SceneRayKind final : public Kind {
  public:
   SceneRayKind()
-      : Kind({.name = "scene-ray",
-              .old_name = "scene-rays",
+      : Kind({.registry = kind_words<SceneRayCastEntry>,
               .title = "Rays at scenes",
               .contract = "ray cast of scenes",
               .legend =

@@ -14,8 +14,8 @@
 #include "harness/base/error.h"
 #include "harness/files/csv.h"
 #include "harness/files/proofs/scene_ray_certificates.h"
-#include "harness/kinds/answers_of.h"
-#include "harness/kinds/ray/ray_file.h"
+#include "harness/kinds/questions.h"
+#include "harness/kinds/ray/ray_kind.h"
 #include "harness/scene/player.h"
 
 namespace touchstone::kinds {

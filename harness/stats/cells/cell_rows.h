@@ -5,6 +5,7 @@
 #include <string>
 
 #include "algorithms/core/outcome.h"
+#include "harness/kinds/grade.h"
 #include "harness/record/row.h"
 
 namespace touchstone::stats {
@@ -35,15 +36,7 @@ void columns(Row& row, Visit visit) {
         "Who says what is right: `oracle`, exact arithmetic; `proven-fast`, a method of ours whose "
         "verdicts are proven; `all-pairs`, every pair of boxes.");
   visit("graded", row.graded, "Queries that were held against the truth, the first ones.");
-  visit("near", row.near,
-        "Contacts that are none, of bodies that come within the algorithm's tolerance; no fault.");
-  visit("missed", row.missed, "Contacts that it does not report.");
-  visit("false_hits", row.false_hits,
-        "Contacts that it reports where there is none, not within its tolerance.");
-  visit("inexact", row.inexact,
-        "Answers whose verdict is right, and a number, a pair, a triangle or a bound is not.");
-  visit("bound", row.bound, "Of these, upper bounds of an algorithm that gives them by design.");
-  visit("gave_up", row.gave_up, "Answers that its status gives up.");
+  kinds::grade_columns(row, visit);
   visit("unresolved", row.unresolved, "Queries whose exact answer is not known.");
   visit("error", row.error, "Greatest error of a number; empty where there is none.");
   visit("hits", row.hits, "Of motion: pairs of bodies that it found to touch; else -1.");

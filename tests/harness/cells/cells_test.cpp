@@ -15,6 +15,7 @@
 #include "harness/stats/cells/cell_rows.h"
 #include "harness/stats/cells/cell_tables.h"
 #include "tests/harness/columns_page.h"
+#include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
@@ -26,7 +27,7 @@ constexpr const char* few_rounds = "rounds = 6\nsample_seconds = 1e-5\nalgorithm
 
 cells::CellRequest request_of(const TemporaryFolder& folder, const std::string& keys) {
   return cells::read_cells(
-      folder.write("cells.toml", "name = \"small\"\n[cells]\n" + keys + few_rounds));
+      folder.write("cells.toml", "name = \"small\"\n[[group]]\n" + keys + few_rounds));
 }
 
 struct Ran {
@@ -89,7 +90,7 @@ TEST(Cells, OfLibrariesThatBeginThreads) {
   const TemporaryFolder folder;
   for (const std::string kind : {"ray", "point"}) {
     const auto request = cells::read_cells(folder.write(
-        "cells.toml", "[cells]\nkind = \"" + kind +
+        "cells.toml", "[[group]]\nkind = \"" + kind +
                           "\"\nmeshes = \"trefoil-10000\"\nqueries = 64\ntasks = \"closest\"\n"
                           "rounds = 6\nsample_seconds = 1e-5\n"));
     EXPECT_EQ(request.query_kind, kind);
@@ -135,7 +136,7 @@ TEST(Cells, OfMotion) {
   folder.write("spinners.toml", "generator = \"spinners\"\ncount = 24\nframes = 1\n");
   const auto request = cells::read_cells(
       folder.write("cells.toml",
-                   "[cells]\nkind = \"motion\"\nscenes = [\"bullets.toml\", \"spinners.toml\"]\n"
+                   "[[group]]\nkind = \"motion\"\nscenes = [\"bullets.toml\", \"spinners.toml\"]\n"
                    "threads = [1, 2]\nsubsteps = [1, 16]\nrounds = 6\nsample_seconds = 1e-5\n"
                    "casts = [\"gjk-ray-cast\", \"closed-form+gjk-ray-cast+rigid-advancement\"]\n"));
   ASSERT_EQ(request.cells.size(), 4U);
@@ -327,6 +328,21 @@ TEST(Cells, OfTheProjectsFilesAreRead) {
     EXPECT_EQ(request.name, name);
     EXPECT_GE(request.cells.size(), 8U) << name;
   }
+}
+
+// Earlier files had a table [cells], and results of them are compared with those of today's.
+TEST(Cells, AreCalledAGroupNow) {
+  const TemporaryFolder folder;
+  const std::string fault = input_fault([&] {
+    cells::read_cells(folder.write("old.toml", "name = \"old\"\n[cells]\nkind = \"rays\"\n"));
+  });
+  EXPECT_THAT(fault, HasSubstr("old.toml:2"));
+  EXPECT_THAT(fault, HasSubstr("is now `[[group]]`"));
+  EXPECT_TRUE(cells::has_cells(folder.path() / "old.toml"));
+  EXPECT_FALSE(cells::has_cells(folder.write("run.toml", "[[group]]\nscenes = \"x.toml\"\n")));
+  const std::filesystem::path rays =
+      std::filesystem::path(project_folder) / "datasets/campaigns/rays.toml";
+  EXPECT_EQ(record::value_of(cells::read_cells(rays).identity, "cells_hash"), "d9ecf84f26c4fc1c");
 }
 
 TEST(Columns, OfCellsAreDocumented) {

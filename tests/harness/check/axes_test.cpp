@@ -1,4 +1,4 @@
-// Tests that each axis of a sweep draws what it states.
+// Tests that each axis draws what it states.
 #include "harness/check/axes/axes.h"
 
 #include <gmock/gmock.h>
@@ -10,22 +10,22 @@
 #include <set>
 
 #include "harness/base/plain_math.h"
-#include "harness/check/axes/stress_cell.h"
-#include "harness/check/axes/stress_shapes.h"
+#include "harness/check/axes/axis_draws.h"
+#include "harness/check/check_job.h"
 #include "harness/grade/pair_size.h"
 #include "harness/process/queries/solve_case.h"
 
 namespace touchstone {
 namespace {
 
-const check::StressAxis& axis(const std::string& name) {
-  return *std::ranges::find(check::axes(), name, &check::StressAxis::name);
+const check::Axis& axis(const std::string& name) {
+  return *std::ranges::find(check::axes(), name, &check::Axis::name);
 }
 
-// The cases of a cell, and how many of them are apart and overlap.
+// The cases of a value, and how many of them are apart and overlap.
 struct Drawn {
   std::vector<grade::TrueCase> cases;
-  check::CellSummary summary;
+  check::AxisSummary summary;
   std::map<Answer, int> answers;
 };
 
@@ -35,18 +35,16 @@ class Axes : public ::testing::Test {
   template <class Visit>
   void for_each_value(const std::string& name, int cases, const Visit& visit,
                       double greatest = 1e300) {
-    const check::StressAxis& of = axis(name);
-    const std::vector<const check::StressAxis*> list = {&of};
-    check::StressRequest request;
-    request.cells = check::cells_of(list);
+    check::CheckRequest request(check::CheckMode::axes);
+    request.regimes = check::select_axes(name);
     request.cases = cases;
-    for (std::size_t cell = 0; cell < request.cells.size(); ++cell) {
-      const kinds::AxisValue& value = request.cells[cell].value();
+    for (std::size_t place = 0; place < request.regimes.size(); ++place) {
+      const kinds::AxisValue& value = check::value_of(*request.regimes[place]);
       if (value.value > greatest) continue;
       SCOPED_TRACE(name + " " + value.name);
       EXPECT_EQ(std::stod(value.name), value.value);
       Drawn drawn;
-      drawn.cases = check::true_cases(request, cell, oracle, drawn.summary);
+      drawn.cases = check::axis_cases(request, place, oracle, drawn.summary);
       EXPECT_GT(drawn.cases.size(), 0u);
       for (grade::TrueCase& c : drawn.cases) {
         const Answer answer = c.truth(Encoding::as_given).measure.answer;
@@ -80,10 +78,8 @@ TEST_F(Axes, HaveTheEndsThatTheyPromise) {
   EXPECT_EQ(ends("coplanar"), "1e-1 to 0");
   EXPECT_EQ(ends("parallel"), "1e0 to 0");
   std::set<std::string> names;
-  std::vector<const check::StressAxis*> list;
-  for (const check::StressAxis& one : check::axes()) list.push_back(&one);
-  for (const check::StressCell& cell : check::cells_of(list))
-    EXPECT_TRUE(names.insert(cell.regime.name).second);
+  for (const check::Regime* regime : check::select_axes(""))
+    EXPECT_TRUE(names.insert(regime->name).second);
 }
 
 TEST_F(Axes, Scale) {

@@ -46,7 +46,7 @@ class CheckRun : public ::testing::Test {
     return all;
   }
   // Returns the counts of the only algorithm in the only regime.
-  static const grade::AnswerCount& count(const check::CheckResult& result) {
+  static const grade::AnswerCount& count(const check::CheckReport& result) {
     return result.tally.answers().begin()->second;
   }
 
@@ -58,22 +58,22 @@ TEST_F(CheckRun, AnAlgorithmThatIsRight) {
   const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
   const check::CheckRequest request = request_for({&entry});
   const auto result = check::run_check(request);
-  EXPECT_THAT(result->report.ours_wrong(), IsEmpty());
-  EXPECT_EQ(count(*result).answers, 8 * 3);
-  EXPECT_EQ(count(*result).silent, 0);
-  EXPECT_LT(count(*result).distance, 1e-12);
-  EXPECT_LT(count(*result).too_deep, 1e-12);
-  EXPECT_THAT(result->report.failures, IsEmpty());
-  ASSERT_THAT(result->tally.jobs(), SizeIs(1));
-  EXPECT_EQ(result->tally.jobs()[0].boxes, 8 * 4);
-  EXPECT_EQ(result->tally.jobs()[0].boxes_broken, 0);
-  EXPECT_EQ(result->tally.jobs()[0].proven, 2);
-  EXPECT_EQ(result->tally.jobs()[0].refused, 0);
+  EXPECT_THAT(result.ours_wrong(), IsEmpty());
+  EXPECT_EQ(count(result).answers, 8 * 3);
+  EXPECT_EQ(count(result).silent, 0);
+  EXPECT_LT(count(result).distance, 1e-12);
+  EXPECT_LT(count(result).too_deep, 1e-12);
+  EXPECT_THAT(result.failures, IsEmpty());
+  ASSERT_THAT(result.tally.jobs(), SizeIs(1));
+  EXPECT_EQ(result.tally.jobs()[0].boxes, 8 * 4);
+  EXPECT_EQ(result.tally.jobs()[0].boxes_broken, 0);
+  EXPECT_EQ(result.tally.jobs()[0].proven, 2);
+  EXPECT_EQ(result.tally.jobs()[0].refused, 0);
   for (const char* name :
        {"grades.csv", "variants.csv", "jobs.csv", "progress.csv", "summary.csv", "machine.csv"}) {
     EXPECT_THAT(names(), Contains(name));
   }
-  EXPECT_THAT(check::summary_text(result->report, 120),
+  EXPECT_THAT(check::summary_text(result, 120),
               HasSubstr("None of our own algorithms is wrong beyond its margin."));
 }
 
@@ -99,19 +99,19 @@ TEST_P(CheckRunHarm, IsFoundInOursAndInAPeers) {
     const check::CheckRequest request = request_for({&entry});
     const auto result = check::run_check(request);
     if (harm.counted != nullptr) {
-      EXPECT_EQ(count(*result).*harm.counted, harm.expected);
+      EXPECT_EQ(count(result).*harm.counted, harm.expected);
     }
     const bool ours = origin == Origin::ours;
-    const std::vector<std::string> wrong = result->report.ours_wrong();
+    const std::vector<std::string> wrong = result.ours_wrong();
     EXPECT_EQ(!wrong.empty(), ours && harm.is_fault);
     if (!harm.is_fault) continue;
-    ASSERT_THAT(result->report.failures, Not(IsEmpty()));
-    const check::FailureCase& failure = result->report.failures.front();
+    ASSERT_THAT(result.failures, Not(IsEmpty()));
+    const check::FailureCase& failure = result.failures.front();
     EXPECT_THAT(failure.what,
                 HasSubstr(ours || harm.words != "does not separate" ? harm.words : ""));
     if (ours) {
       EXPECT_THAT(wrong, Contains(HasSubstr(failure.what)));
-      EXPECT_THAT(check::summary_text(result->report, 120), HasSubstr(failure.command(request)));
+      EXPECT_THAT(check::summary_text(result, 120), HasSubstr(failure.command(request)));
     }
     // The case file has a case that shows the fault.
     const std::vector<files::Case> cases = files::read_cases(failure.file);
@@ -153,8 +153,8 @@ TEST_F(CheckRun, AHangIsARow) {
   request.cases = 2;
   request.time_limit = 0.1;
   const auto result = check::run_check(request);
-  EXPECT_EQ(count(*result).timed_out, 6);
-  EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("no answer in time")));
+  EXPECT_EQ(count(result).timed_out, 6);
+  EXPECT_THAT(result.ours_wrong(), Contains(HasSubstr("no answer in time")));
   EXPECT_THAT(read("grades.csv"), HasSubstr("timed_out"));
 }
 
@@ -163,14 +163,14 @@ TEST_F(CheckRun, AnotherFormOfAPairHasTheSameAnswer) {
   const NarrowPhaseEntry entry = planted<Harm::wrong_side>("bad", Origin::ours);
   const check::CheckRequest request = request_for({&entry});
   const auto result = check::run_check(request);
-  const check::FlipCount& flips = result->tally.flips().begin()->second;
+  const check::FlipCount& flips = result.tally.flips().begin()->second;
   EXPECT_GT(flips.compared, 0);
   EXPECT_GT(flips.flips, 0);
   EXPECT_GT(flips.beyond, 0);
   EXPECT_NEAR(flips.worst_flip, 0.25, 0.02);
-  EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("in another form differ")));
-  ASSERT_THAT(result->report.variant_failures, Not(IsEmpty()));
-  EXPECT_GE(files::read_cases(result->report.variant_failures[0].file).size(), 2u);
+  EXPECT_THAT(result.ours_wrong(), Contains(HasSubstr("in another form differ")));
+  ASSERT_THAT(result.variant_failures, Not(IsEmpty()));
+  EXPECT_GE(files::read_cases(result.variant_failures[0].file).size(), 2u);
   EXPECT_THAT(read("variants.csv"), HasSubstr(",swap,"));
 }
 
@@ -207,7 +207,7 @@ TEST_F(CheckRun, ThePage) {
   const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
   const check::CheckRequest request = request_for({&good, &bad});
   const auto result = check::run_check(request);
-  const std::string page = check::page_text(result->report, "touchstone check --cases 8");
+  const std::string page = check::page_text(result, "touchstone check --cases 8");
   EXPECT_THAT(page, HasSubstr("# Who is wrong where"));
   EXPECT_THAT(page, HasSubstr("`touchstone check --cases 8` (seed 1, 8 cases"));
   EXPECT_THAT(page, HasSubstr("| good double | 24 | 0 | - | 0 | - |"));
@@ -221,8 +221,8 @@ TEST_F(CheckRun, ShrunkCasesStillFail) {
   const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::ours);
   const check::CheckRequest request = request_for({&bad});
   const auto result = check::run_check(request);
-  ASSERT_THAT(result->report.failures, Not(IsEmpty()));
-  for (const check::FailureCase& failure : result->report.failures) {
+  ASSERT_THAT(result.failures, Not(IsEmpty()));
+  for (const check::FailureCase& failure : result.failures) {
     EXPECT_EQ(failure.answer.given.verdict, grade::Verdict::silent_error);
     for (const files::Case& c : files::read_cases(failure.file)) {
       EXPECT_GT((c.pose_b.translation - c.pose_a.translation).x(), 0);
@@ -239,10 +239,10 @@ TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
   const base::Stopwatch watch;
   const auto result = check::run_check(request);
   EXPECT_GE(watch.seconds(), 0.5);
-  EXPECT_GE(result->tally.jobs().size(), 3u);
-  for (std::size_t i = 0; i < result->tally.jobs().size(); ++i) {
-    EXPECT_EQ(result->tally.jobs()[i].round, i / 2);
-    EXPECT_EQ(result->tally.jobs()[i].regime, i % 2);
+  EXPECT_GE(result.tally.jobs().size(), 3u);
+  for (std::size_t i = 0; i < result.tally.jobs().size(); ++i) {
+    EXPECT_EQ(result.tally.jobs()[i].round, i / 2);
+    EXPECT_EQ(result.tally.jobs()[i].regime, i % 2);
   }
   // No case comes twice.
   std::map<std::string, int> seen;
@@ -250,7 +250,7 @@ TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
       .read([&](const files::CsvReader::Row& row) {
         ++seen[fmt::format("{} {} {}", row.text(0), row.text(1), row.text(2))];
       });
-  EXPECT_EQ(seen.size(), result->tally.jobs().size() * 8 * 3);
+  EXPECT_EQ(seen.size(), result.tally.jobs().size() * 8 * 3);
 }
 
 TEST_F(CheckRun, BoxesOfBodiesAreChecked) {
@@ -263,8 +263,8 @@ TEST_F(CheckRun, BoxesOfBodiesAreChecked) {
   request.regimes = {&all};
   request.cases = 20;
   const auto result = check::run_check(request);
-  EXPECT_EQ(result->tally.jobs()[0].boxes, 80);
-  EXPECT_EQ(result->tally.jobs()[0].boxes_broken, 0);
+  EXPECT_EQ(result.tally.jobs()[0].boxes, 80);
+  EXPECT_EQ(result.tally.jobs()[0].boxes_broken, 0);
 }
 
 }  // namespace

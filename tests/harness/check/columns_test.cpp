@@ -1,7 +1,5 @@
-// Tests that the columns of checks and soaks are documented.
+// Tests that the columns of checks are documented.
 #include "harness/check/check_rows.h"
-#include "harness/check/families/family_rows.h"
-#include "harness/check/soak/soak_rows.h"
 #include "tests/harness/columns_page.h"
 
 namespace touchstone {
@@ -16,10 +14,10 @@ TEST(Columns, OfFamiliesAreDocumented) {
                     record::column_docs<check::FamilyCount>(check::CheckSubjects{}));
 }
 
-TEST(Columns, OfSoaksAreDocumented) {
+TEST(Columns, OfCountsAreDocumented) {
   const check::CheckSubjects none;
-  expect_documented("soak.csv", record::column_docs<check::SoakRow>(none));
-  expect_documented("jobs.csv of a soak", record::column_docs<check::SoakJobRow>(none));
+  expect_documented("soak.csv", record::column_docs<check::VerdictSum>(none));
+  expect_documented("jobs.csv of a count", record::column_docs<check::VerdictCount>(none));
 }
 
 }  // namespace

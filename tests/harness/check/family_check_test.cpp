@@ -1,4 +1,4 @@
-// Tests checks and soaks of families: with planted algorithms, and of the exact answers themselves.
+// Tests checks of families: with planted algorithms, and of the exact answers themselves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,9 +8,7 @@
 #include <set>
 
 #include "harness/check/check_run.h"
-#include "harness/check/requests/select_cases.h"
-#include "harness/check/soak/soak.h"
-#include "harness/check/soak/soak_text.h"
+#include "harness/check/select_cases.h"
 #include "harness/files/concave/concave_cases.h"
 #include "harness/files/motion/ccd_queries.h"
 #include "harness/geometry/mesh.h"
@@ -46,9 +44,9 @@ std::vector<const kinds::Family*> some_families() {
 
 class FamilyCheck : public ::testing::Test {
  protected:
-  template <class Request = check::CheckRequest>
-  Request request_for(std::vector<kinds::Contestant> contestants) {
-    Request request;
+  check::CheckRequest request_for(std::vector<kinds::Contestant> contestants,
+                                  check::CheckMode mode = check::CheckMode::cases) {
+    check::CheckRequest request(mode);
     request.contestants = std::move(contestants);
     request.families = some_families();
     request.scalars = {Precision::float64};
@@ -73,24 +71,24 @@ TEST_F(FamilyCheck, ContactsThatAreNotToldAreMissed) {
   const PlantedKinds<Habit::no> planted;
   const auto request = request_for(planted.contestants());
   const auto result = check::run_check(request);
-  for (const FamilyCount& count : sums(result->tally.families())) {
+  for (const FamilyCount& count : sums(result.tally.families())) {
     EXPECT_EQ(count.cases, 30);
     EXPECT_GT(count.missed, 0);
     EXPECT_GT(count.right, 0);
     EXPECT_EQ(count.missed, count.contacts);
     EXPECT_EQ(count.false_hits + count.inexact + count.failed + count.gave_up, 0);
   }
-  EXPECT_THAT(result->report.ours_wrong(), Each(HasSubstr("missed")));
-  EXPECT_GE(result->report.ours_wrong().size(), 5u);
-  EXPECT_THAT(check::page_text(result->report, "touchstone check"), HasSubstr("## Moving bodies"));
-  EXPECT_THAT(check::summary_text(result->report, 120), HasSubstr("planted double contact"));
+  EXPECT_THAT(result.ours_wrong(), Each(HasSubstr("missed")));
+  EXPECT_GE(result.ours_wrong().size(), 5u);
+  EXPECT_THAT(check::page_text(result, "touchstone check"), HasSubstr("## Moving bodies"));
+  EXPECT_THAT(check::summary_text(result, 120), HasSubstr("planted double contact"));
 }
 
 TEST_F(FamilyCheck, ContactsThatAreNoneAreFalse) {
   const PlantedKinds<Habit::yes> planted{.origin = Origin::peer};
   const auto request = request_for(planted.contestants());
   const auto result = check::run_check(request);
-  const auto all = sums(result->tally.families());
+  const auto all = sums(result.tally.families());
   for (const FamilyCount& count : all) {
     EXPECT_GT(count.false_hits, 0);
     EXPECT_EQ(count.false_hits + count.near, count.cases - count.contacts - count.unresolved);
@@ -98,24 +96,24 @@ TEST_F(FamilyCheck, ContactsThatAreNoneAreFalse) {
   }
   // A hit that is told at time 0 is too early.
   EXPECT_GT(all[3].inexact, 0);
-  EXPECT_THAT(result->report.ours_wrong(), IsEmpty());
+  EXPECT_THAT(result.ours_wrong(), IsEmpty());
 }
 
 TEST_F(FamilyCheck, GivingUpIsHonestAndCrashesAreLost) {
   const PlantedKinds<Habit::gives_up> shy;
   const auto shy_result = check::run_check(request_for(shy.contestants()));
-  for (const FamilyCount& count : sums(shy_result->tally.families())) {
+  for (const FamilyCount& count : sums(shy_result.tally.families())) {
     EXPECT_EQ(count.gave_up, count.cases);
   }
-  EXPECT_THAT(shy_result->report.ours_wrong(), IsEmpty());
+  EXPECT_THAT(shy_result.ours_wrong(), IsEmpty());
   const PlantedKinds<Habit::crashes> bad;
   auto request = request_for(bad.contestants());
   request.cases = 5;
   const auto result = check::run_check(request);
-  for (const FamilyCount& count : sums(result->tally.families())) {
+  for (const FamilyCount& count : sums(result.tally.families())) {
     EXPECT_EQ(count.failed, count.cases);
   }
-  EXPECT_THAT(result->report.ours_wrong(), Each(HasSubstr("failed")));
+  EXPECT_THAT(result.ours_wrong(), Each(HasSubstr("failed")));
 }
 
 // The first wrong case of each kind is in a file that shows it again.
@@ -172,29 +170,29 @@ TEST_F(FamilyCheck, GoesOnWhereItWasStopped) {
   request.resume = true;
   const auto result = check::run_check(request);
   EXPECT_EQ(folder.read("out/families.csv"), whole);
-  EXPECT_EQ(sums(result->tally.families())[1].cases, 30);
+  EXPECT_EQ(sums(result.tally.families())[1].cases, 30);
 }
 
-TEST_F(FamilyCheck, SoaksCountThousandsOfThem) {
+TEST_F(FamilyCheck, CountsOfThousands) {
   const PlantedKinds<Habit::no> planted;
-  auto request = request_for<check::SoakRequest>(planted.contestants());
-  request.pairs = 6000;
-  const check::SoakResult result = check::run_soak(request);
-  EXPECT_EQ(result.drawn, 6000);
-  for (const FamilyCount& count : sums(result.families)) {
+  auto request = request_for(planted.contestants(), check::CheckMode::count);
+  request.count = 6000;
+  const check::CheckReport result = check::run_check(request);
+  EXPECT_EQ(result.jobs, 6);
+  for (const FamilyCount& count : sums(result.tally.families())) {
     EXPECT_EQ(count.cases, 1000);
     EXPECT_GT(count.missed, 0);
     EXPECT_GT(count.right, 0);
   }
-  EXPECT_TRUE(result.ours_are_wrong(request));
-  EXPECT_THAT(check::soak_text(request, result, 120), Not(HasSubstr("Only ")));
+  EXPECT_THAT(result.ours_wrong(), Not(IsEmpty()));
+  EXPECT_THAT(check::summary_text(result, 120), Not(HasSubstr("Only ")));
 }
 
-TEST_F(FamilyCheck, SoaksThatAreTooSmallSaySo) {
+TEST_F(FamilyCheck, CountsThatAreTooSmallSaySo) {
   const PlantedKinds<Habit::no> planted;
-  auto request = request_for<check::SoakRequest>(planted.contestants());
-  request.pairs = 500;
-  const std::string text = check::soak_text(request, check::run_soak(request), 120);
+  auto request = request_for(planted.contestants(), check::CheckMode::count);
+  request.count = 500;
+  const std::string text = check::summary_text(check::run_check(request), 120);
   EXPECT_THAT(text, HasSubstr("Only 1 of 6 regimes and families were asked, each 1000 "
                               "cases; --count 6000 asks all."));
   EXPECT_THAT(text, HasSubstr("Bodies that need not be convex"));
@@ -243,27 +241,42 @@ TEST(CaseFamilies, HaveNamesOfTheirOwn) {
   }
 }
 
+// Boxes have no cases to count and no axes, which is told where they are named.
+TEST(SelectCases, BoxesAreNotLeftOutSilently) {
+  for (const check::CheckMode mode : {check::CheckMode::axes, check::CheckMode::count}) {
+    check::CheckRequest request(mode);
+    check::CaseSelection selection;
+    check::select_cases(selection, "", request);
+    EXPECT_TRUE(request.broad.empty());
+    selection.with = "naive,gjk";
+    check::select_cases(selection, "", request);
+    check::CheckReport report;
+    report.request = &request;
+    EXPECT_THAT(check::summary_text(report, 120), HasSubstr("Not asked: 1 of the kind box"));
+  }
+}
+
 TEST(SelectCases, WhatIsNamedAloneIsTaken) {
   check::CheckRequest request;
-  select_cases({}, "all", request);
+  check::select_cases({}, "", request);
   EXPECT_FALSE(request.narrow.empty() || request.broad.empty() || request.regimes.empty());
   EXPECT_EQ(request.families.size(), kinds::case_families().size());
   check::CaseSelection casts;
   casts.others[&kinds::cast_kind()] = "gjk-ray-cast";
-  select_cases(casts, "all", request);
+  check::select_cases(casts, "", request);
   EXPECT_TRUE(request.narrow.empty() && request.broad.empty());
   for (const kinds::Contestant& one : request.contestants) {
     EXPECT_EQ(one.info->name, "gjk-ray-cast");
   }
   for (const kinds::Family* family : request.families) EXPECT_EQ(family->kind, &kinds::cast_kind());
   casts.groups = "turns";
-  select_cases(casts, "all", request);
+  check::select_cases(casts, "", request);
   for (const kinds::Family* family : request.families) EXPECT_EQ(family->group, "turns");
   casts.groups = "rays";
-  EXPECT_THAT(input_fault([&] { select_cases(casts, "all", request); }),
+  EXPECT_THAT(input_fault([&] { check::select_cases(casts, "", request); }),
               HasSubstr("no algorithm that is named takes cases of these regimes"));
   casts.groups = "what";
-  EXPECT_THAT(input_fault([&] { select_cases(casts, "all", request); }),
+  EXPECT_THAT(input_fault([&] { check::select_cases(casts, "", request); }),
               HasSubstr("no group of regimes is called 'what'"));
 }
 

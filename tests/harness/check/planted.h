@@ -116,8 +116,8 @@ inline check::RegimeCase draw_balls(check::RegimeDraw& draw) {
   return c;
 }
 
-inline check::StressAxis balls_axis(int values) {
-  check::StressAxis axis;
+inline check::Axis balls_axis(int values) {
+  check::Axis axis;
   axis.name = axis.what = "balls";
   axis.unit = "steps";
   axis.draw = draw_balls;

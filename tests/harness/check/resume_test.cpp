@@ -1,4 +1,4 @@
-// Tests that a check or sweep resumes after a kill, and only in its own folder.
+// Tests that a check resumes after a kill, and only in its own folder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "harness/base/clock.h"
-#include "harness/check/axes/stress_run.h"
 #include "harness/check/check_run.h"
 #include "tests/harness/check/planted.h"
 #include "tests/harness/input_fault.h"
@@ -27,7 +26,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 struct CheckWork {
-  using Request = check::CheckRequest;
+  static constexpr check::CheckMode mode = check::CheckMode::cases;
   static constexpr std::size_t units = 7;
   static constexpr const char* rows = "grades.csv";
   static constexpr const char* subject = "regimes";
@@ -38,7 +37,6 @@ struct CheckWork {
   void set_subject(check::CheckRequest& request) const {
     for (const check::Regime& regime : regimes) request.regimes.push_back(&regime);
   }
-  static void run(const check::CheckRequest& request) { check::run_check(request); }
   static void shorten(check::CheckRequest& request) { request.regimes.pop_back(); }
   static std::vector<std::string> files() {
     return {"grades.csv", "variants.csv", "jobs.csv", "summary.csv"};
@@ -51,29 +49,28 @@ struct CheckWork {
   std::vector<check::Regime> regimes;
 };
 
-struct StressWork {
-  using Request = check::StressRequest;
+struct AxesWork {
+  static constexpr check::CheckMode mode = check::CheckMode::axes;
   static constexpr std::size_t units = 8;
   static constexpr const char* rows = "stress.csv";
   static constexpr const char* subject = "axes";
 
-  void set_subject(check::StressRequest& request) const { request.cells = check::cells_of(axes); }
-  static void run(const check::StressRequest& request) { check::run_stress(request); }
-  static void shorten(check::StressRequest& request) { request.cells.erase(request.cells.begin()); }
+  void set_subject(check::CheckRequest& request) const {
+    for (const check::Regime& value : values) request.regimes.push_back(&value);
+  }
+  static void shorten(check::CheckRequest& request) { request.regimes.clear(); }
   static std::vector<std::string> files() { return {"stress.csv", "cells.csv", "envelope.csv"}; }
   static std::map<std::string, std::string> leftovers() {
     return {{"stress.csv", "balls,7,bad,dou"}, {"cells.csv", "balls,7,8,0,0\n"}};
   }
 
-  check::StressAxis balls = balls_axis(8);
-  std::vector<const check::StressAxis*> axes = {&balls};
+  check::Axis balls = balls_axis(8);
+  std::vector<check::Regime> values = check::regimes_of(balls);
 };
 
 template <class Work>
 class Resume : public ::testing::Test {
  protected:
-  using Request = typename Work::Request;
-
   Resume() {
     request.narrow = {&slow, &bad};
     request.scalars = {Precision::float64};
@@ -84,7 +81,7 @@ class Resume : public ::testing::Test {
   }
   std::string read(const std::string& name) const { return folder.read("out/" + name); }
   std::string fault() const {
-    return input_fault([&] { Work::run(request); });
+    return input_fault([&] { check::run_check(request); });
   }
 
   // Kills the work after so many units.
@@ -92,7 +89,7 @@ class Resume : public ::testing::Test {
     const pid_t child = fork();
     if (child == 0) {
       std::freopen("/dev/null", "w", stderr);
-      Work::run(request);
+      check::run_check(request);
       _exit(0);
     }
     const std::string wanted = "\nunits,";
@@ -114,10 +111,10 @@ class Resume : public ::testing::Test {
   Work work;
   NarrowPhaseEntry slow = planted<Harm::none, 300>("slow", Origin::ours);
   NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::peer);
-  Request request;
+  check::CheckRequest request{Work::mode};
 };
 
-using Works = ::testing::Types<CheckWork, StressWork>;
+using Works = ::testing::Types<CheckWork, AxesWork>;
 TYPED_TEST_SUITE(Resume, Works);
 
 TYPED_TEST(Resume, NoRowIsLostOrDoubled) {
@@ -126,7 +123,7 @@ TYPED_TEST(Resume, NoRowIsLostOrDoubled) {
     std::ofstream(this->request.out / name, std::ios::app) << text;
   }
   this->request.resume = true;
-  TypeParam::run(this->request);
+  check::run_check(this->request);
   std::map<std::string, std::string> found;
   for (const std::string& name : TypeParam::files()) found[name] = this->read(name);
   const std::string cases = this->read("failures/bad-double-intersect.jsonl");
@@ -134,25 +131,25 @@ TYPED_TEST(Resume, NoRowIsLostOrDoubled) {
   EXPECT_THAT(this->read("progress.csv"),
               HasSubstr("units," + std::to_string(TypeParam::units) + "\n"));
   this->request.resume = false;
-  TypeParam::run(this->request);
+  check::run_check(this->request);
   for (const auto& [name, text] : found) EXPECT_EQ(text, this->read(name)) << name;
   EXPECT_EQ(cases, this->read("failures/bad-double-intersect.jsonl"));
 
   // Finished work is not done again, and the result is equal.
   this->request.resume = true;
-  TypeParam::run(this->request);
+  check::run_check(this->request);
   for (const auto& [name, text] : found) EXPECT_EQ(text, this->read(name)) << name;
 }
 
 TYPED_TEST(Resume, AnotherRequestIsRefused) {
   this->request.narrow = {&this->bad};
-  TypeParam::run(this->request);
+  check::run_check(this->request);
   const std::string before = this->read(TypeParam::rows);
   this->request.resume = true;
   const auto refuse = [&](const auto& change, const std::string& text) {
     auto other = this->request;
     change(other);
-    EXPECT_THAT(input_fault([&] { TypeParam::run(other); }),
+    EXPECT_THAT(input_fault([&] { check::run_check(other); }),
                 AllOf(HasSubstr("machine.csv: "), HasSubstr(text)));
   };
   refuse([](auto& r) { r.seed = 2; }, "seed was '1' and is '2' now");
@@ -167,7 +164,7 @@ TYPED_TEST(Resume, AnotherRequestIsRefused) {
 
 TYPED_TEST(Resume, AnotherProgramAndShortFilesAreRefused) {
   this->request.narrow = {&this->bad};
-  TypeParam::run(this->request);
+  check::run_check(this->request);
   this->request.resume = true;
   const std::string facts = this->read("machine.csv");
   const auto at = facts.find("\nprogram,") + 9;

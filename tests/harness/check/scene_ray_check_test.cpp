@@ -38,14 +38,14 @@ TEST(SceneRayCheck, AnotherBodyOrLengthThanTheFirstIsWrong) {
   request.out = folder.path() / "out";
   const auto result = check::run_check(request);
   check::FamilyCount count;
-  for (const auto& [key, one] : result->tally.families()) {
+  for (const auto& [key, one] : result.tally.families()) {
     if (key.form == kinds::CaseForm::as_drawn) count.add(one);
   }
   EXPECT_EQ(count.cases, 100);
   EXPECT_GT(count.inexact, 20);
   EXPECT_LE(count.right, count.cases - count.contacts);
   EXPECT_EQ(count.missed + count.false_hits + count.near, 0);
-  EXPECT_THAT(result->report.ours_wrong(), Not(IsEmpty()));
+  EXPECT_THAT(result.ours_wrong(), Not(IsEmpty()));
 }
 
 // What is counted of rays at scenes does not depend on how many processes count.
@@ -59,9 +59,9 @@ TEST(SceneRayCheck, TwoWorkersCountAsOne) {
     request.workers = workers;
     request.out = folder.path() / std::to_string(workers);
     const auto result = check::run_check(request);
-    EXPECT_THAT(result->report.ours_wrong(), IsEmpty());
+    EXPECT_THAT(result.ours_wrong(), IsEmpty());
     std::int64_t hits = 0, misses = 0;
-    for (const auto& [key, count] : result->tally.families()) {
+    for (const auto& [key, count] : result.tally.families()) {
       hits += count.contacts;
       misses += count.cases - count.contacts;
     }

@@ -1,4 +1,4 @@
-// Tests of touchstone compare and tables on the results of a campaign with [cells], through the program.
+// Tests of touchstone compare and tables on the results of a campaign of kinds, through the program.
 #include <fstream>
 #include <string>
 #include <vector>
@@ -113,7 +113,7 @@ TEST_F(CompareCells, TablesAreWrittenAgain) {
   }
   ran = run_program("reproduce --results " + folder);
   EXPECT_EQ(ran.status, 2) << ran.text;
-  EXPECT_THAT(ran.text, HasSubstr("[cells]"));
+  EXPECT_THAT(ran.text, HasSubstr("a campaign with kinds"));
   std::filesystem::remove(folder_.path() / "a/raw.csv");
   ran = run_program("show --tables " + folder);
   EXPECT_EQ(ran.status, 2) << ran.text;

@@ -76,7 +76,7 @@ TEST_F(Output, ANameThatLeavesTheResultsIsRefused) {
   const std::string check = "[check]\ncases = 1\nregimes = 'gap-1e-3'\nnarrow = 'gjk'\n";
   folder.write("s.toml", "[[body]]\nshape = 'sphere'\nradius = 1.0\n");
   const std::string trade = "[trade]\nscene = 's.toml'\n";
-  const std::string cells = "[cells]\nkind = 'rays'\n";
+  const std::string cells = "[[group]]\nkind = 'rays'\n";
   const std::string run = "scenes = 's.toml'\nbroad = 'naive'\n";
   for (const std::string& work : {soak, check, trade, cells, run}) {
     const std::string file = folder.write("w.toml", name + work).string();

@@ -1,5 +1,5 @@
 // Tests the lengths that queries of continuous collision are asked with.
-#include "harness/kinds/feature/feature_lengths.h"
+#include "harness/kinds/feature/feature_kind.h"
 
 #include <gtest/gtest.h>
 

@@ -50,6 +50,7 @@ tolerances = [1e-3, 1e-9]
 max_iterations = [1, 8]
 )");
   EXPECT_TRUE(files::has_key(file, "trade"));
+  EXPECT_FALSE(files::has_key(file, "trade.seed"));  // that is no array of tables
   const trade::TradeRequest request = trade::read_trades(file).at(0);
   EXPECT_EQ(request.seed, 7u);
   EXPECT_EQ(request.task, Task::penetration);

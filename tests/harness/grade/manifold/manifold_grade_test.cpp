@@ -9,7 +9,7 @@
 #include "harness/check/regimes/regimes.h"
 #include "harness/grade/manifold/manifold_tally.h"
 #include "harness/grade/manifold/touching_area.h"
-#include "harness/kinds/manifold/settled_pairs.h"
+#include "harness/kinds/manifold/manifold_kind.h"
 #include "harness/process/queries/solve_manifold.h"
 #include "tests/algorithms/shapes.h"
 
