@@ -104,7 +104,10 @@ std::string beyond_margins(const NarrowPhaseEntry& entry, const GradedAnswer& an
   test("the certified bounds miss the exact value", grade.bounds_error, margins.verdict);
   test("called touching within bounds that are apart", grade.resolution, margins.resolution);
   for_each_length(entry, answer, grade, margins, test);
-  if (answer.witnesses.missing) remarks.add("a number without its normal or witness points");
+  // A depth may come without points, as MPR and SAT have none.
+  if (answer.witnesses.missing && answer.answer == Answer::separated) {
+    remarks.add("a distance without its normal or witness points");
+  }
   test("a witness point is off its body", answer.witnesses.off_body, margins.witness);
   if (answer.witnesses.not_a_number) remarks.add("a reported number is NaN or infinite");
   return remarks.text();

@@ -2,8 +2,8 @@
 //
 // An answer that its algorithm stands by is wrong if it is on the wrong side of contact or
 // contains a number beyond the documented margin (margins.h). Certified bounds that miss are wrong
-// whatever the status. Of ours, a number also needs a normal and witness points on the bodies, which
-// the contract asks for and not every library has. An approximate algorithm may report separate bodies as overlapping; a depth
+// whatever the status. Of ours, a distance also needs a normal, and witness points on the bodies.
+// An approximate algorithm may report separate bodies as overlapping; a depth
 // that is labelled as a bound may be too great.
 #pragma once
 

@@ -143,7 +143,7 @@ TEST_F(CheckRun, ADistanceOfOursNeedsWitnessPoints) {
   check::CheckRequest request = request_for({&entry});
   request.out = folder.path() / "ours";
   const auto result = check::run_check(request);
-  EXPECT_EQ(count(*result).beyond, 4);
+  EXPECT_EQ(count(*result).beyond, 2);
   EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("normal or witness points")));
 }
 

@@ -101,7 +101,9 @@ TEST_F(Beyond, WitnessPoints) {
   EXPECT_THAT(beyond(), HasSubstr("a witness point is off its body by 0.0011 m"));
   answer.witnesses.off_body = 0;
   answer.witnesses.missing = true;
-  EXPECT_EQ(beyond(), "a number without its normal or witness points");
+  EXPECT_EQ(beyond(), "") << "MPR and SAT have a depth without points";
+  answer.answer = Answer::separated;
+  EXPECT_EQ(beyond(), "a distance without its normal or witness points");
 }
 
 TEST_F(Beyond, BodiesWithoutAnyScale) {
