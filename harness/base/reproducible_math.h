@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "algorithms/core/double_double.h"
 #include "algorithms/core/vec.h"
 
 namespace touchstone::base {
@@ -94,5 +95,49 @@ inline Mat3d rotation_over(const Vec3d& w, double time) {
   const double s = half.sin / rate;
   return rotation_of({half.cos, s * w.x(), s * w.y(), s * w.z()});
 }
+
+// Vector products in plain arithmetic, so that they round equally on every platform and with every
+// Eigen.
+
+inline Vec3d outer(const Vec3d& u, const Vec3d& v) {
+  return {u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
+          u.x() * v.y() - u.y() * v.x()};
+}
+// A vector of length 1 up to rounding; the x axis if v is zero. No square overflows or underflows.
+inline Vec3d unit(const Vec3d& v) {
+  const double greatest = v.cwiseAbs().maxCoeff();
+  if (!(greatest > 0)) return Vec3d::UnitX();
+  const Vec3d scaled = v / greatest;
+  return scaled / length(scaled);
+}
+// The unit vector perpendicular to the unit vector n that is nearest to `wish` (not along n).
+inline Vec3d beside(const Vec3d& n, const Vec3d& wish) { return unit(outer(outer(n, wish), n)); }
+
+// Products in double-double precision.
+inline DoubleDouble3 exactly(const Vec3d& v) { return {{v.x(), 0}, {v.y(), 0}, {v.z(), 0}}; }
+inline DoubleDouble3 scaled(const DoubleDouble3& v, const DoubleDouble& factor) {
+  return {v.x * factor, v.y * factor, v.z * factor};
+}
+inline DoubleDouble3 times(const Mat3d& m, const DoubleDouble3& v) {
+  const auto row = [&](int i) {
+    return v.x * DoubleDouble{m(i, 0), 0} + v.y * DoubleDouble{m(i, 1), 0} +
+           v.z * DoubleDouble{m(i, 2), 0};
+  };
+  return {row(0), row(1), row(2)};
+}
+// The direction of v with length 1 to about 1e-31.
+inline DoubleDouble3 true_unit(const Vec3d& v) {
+  const Vec3d n = unit(v);
+  const DoubleDouble3 wide = exactly(n);
+  // 1 / sqrt(1 + e) = 1 - e / 2 + ..., with e of a few units in the last place.
+  const DoubleDouble excess = dot(wide, wide) - DoubleDouble{1, 0};
+  return scaled(wide, DoubleDouble{1, 0} - excess * DoubleDouble{0.5, 0});
+}
+
+// Returns the rotation by the smallest angle that takes `from` to the direction of `to`; where they are opposite it is
+// one of many. The vectors may have any length but zero. Rounding is in proportion to 1 / (1 + cosine), but for the last
+// 1e-12 before opposites, where it is small. Eigen's function of that kind, whose bits these are elsewhere, falls back on
+// a singular value decomposition, which takes ten seconds to compile.
+Mat3d rotation_between(const Vec3d& from, const Vec3d& to);
 
 }  // namespace touchstone::base

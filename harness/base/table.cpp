@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/base/file_text.h"
+#include "harness/base/input_file.h"
 
 namespace touchstone::base {
 namespace {

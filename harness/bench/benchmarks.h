@@ -2,6 +2,9 @@
 // filter makes for a quick start.
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 namespace touchstone::bench {
 
 // narrow/ALGORITHM/SCALAR/SHAPES/TASK/REGIME: one query per iteration, over 256 pairs
@@ -28,5 +31,28 @@ void register_executor_benchmarks();
 
 // kernels/...: support functions, sorting and tests of boxes.
 void register_kernel_benchmarks();
+
+// The cost of the harness inside the timed region.
+
+// harness/overhead/{broad,narrow}/THREADS: the seconds that a sample reports for algorithms that do
+// nothing, per frame or query, timed by the harness's own samplers on a scene of 1,000 bodies. They
+// are all the time between two readings of the clock beside an algorithm's own work: the readings,
+// the calls, and the executor if narrow phases have threads. Counters give the nanoseconds
+// (`overhead`), those of our fastest algorithm in the same place (`fastest`), and the overhead's
+// share of that in per cent (`share`).
+void register_harness_overhead_benchmarks();
+
+// Counts the instructions of a query with Valgrind's Callgrind. A noisy machine does not change the
+// result.
+
+// Runs this program again under Valgrind and writes a row for each narrow-phase benchmark
+// (benchmarks.h) whose name matches the expression (as std::regex_search does):
+// `benchmark,queries,instructions`, the mean over the pairs of its batch, after one pass that is
+// not counted. Valgrind supports at most AVX2. Throws InputError if Valgrind is missing now or was
+// missing when this program was built, and for a filter that is malformed or matches nothing.
+void count_instructions(const std::string& filter, const std::filesystem::path& out);
+
+// The task of the second run: counts, one dump of Callgrind's per benchmark.
+void count_under_valgrind(const std::string& filter);
 
 }  // namespace touchstone::bench

@@ -1,5 +1,5 @@
 // Measures samplers whose algorithms do nothing.
-#include "harness/bench/harness_overhead.h"
+#include "harness/bench/benchmarks.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/measure/phases/broad_sampler.h"
-#include "harness/measure/phases/narrow_sampler.h"
+#include "harness/measure/narrow_sampler.h"
+#include "harness/measure/phase_samplers.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone::bench {

@@ -1,5 +1,5 @@
 // Counts instructions of narrow-phase queries under Callgrind.
-#include "harness/bench/instructions.h"
+#include "harness/bench/benchmarks.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "harness/base/error.h"
-#include "harness/bench/narrow_subjects.h"
+#include "harness/bench/placed_pairs.h"
 #include "harness/files/csv.h"
 #include "harness/process/subprocess.h"
 

@@ -11,8 +11,6 @@
 #include <string_view>
 
 #include "harness/bench/benchmarks.h"
-#include "harness/bench/harness_overhead.h"
-#include "harness/bench/instructions.h"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "algorithms/core/aabb.h"
 #include "algorithms/registry.h"
 #include "harness/bench/benchmarks.h"
-#include "harness/geometry/shapes/named_mesh.h"
+#include "harness/geometry/mesh_shapes.h"
 
 namespace touchstone::bench {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/geometry/tessellation.h"
-#include "harness/scene/generators/settle.h"
+#include "harness/scene/generators/pairs.h"
 
 namespace touchstone::bench {
 namespace {

@@ -1,5 +1,5 @@
 // Pairs of bodies for the kernel benchmarks, from two families of shapes, at a given distance or
-// depth.
+// depth; and the queries for narrow phases, each algorithm on each two families, near and far.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
 #include "algorithms/narrow_phase.h"
+#include "algorithms/registry.h"
 #include "harness/base/random.h"
 
 namespace touchstone::bench {
@@ -67,5 +68,18 @@ struct PlacedPairs {
 
 // The pairs are made when first requested, and kept.
 const PlacedPairs& placed_pairs(const FamilyPair& families, const PairRegime& regime);
+
+struct NarrowSubject {
+  const NarrowPhaseEntry* entry;
+  Precision scalar;
+  Task task;
+  FamilyPair families;
+  PairRegime regime;
+
+  std::string name() const;  // "narrow/gjk/double/hull-32/distance/gap-0.1"
+};
+
+// All queries of every narrow phase that is built.
+std::vector<NarrowSubject> narrow_subjects();
 
 }  // namespace touchstone::bench

@@ -12,7 +12,7 @@
 #include "algorithms/core/executor/executor.h"
 #include "algorithms/core/isa.h"
 #include "algorithms/registry.h"
-#include "harness/measure/phases/narrow_choice.h"
+#include "harness/measure/narrow_choice.h"
 #include "harness/scene/scene.h"
 #include "harness/stats/published.h"
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "harness/files/folders/folder_name.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
 

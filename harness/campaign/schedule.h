@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/campaign/check_pass/check_table.h"
+#include "harness/campaign/check_pass.h"
 #include "harness/measure/measure_plan.h"
 
 namespace touchstone::campaign {

@@ -17,7 +17,7 @@
 #include "harness/process/isolate.h"
 #include "harness/record/machine.h"
 #include "harness/record/raw_row.h"
-#include "harness/stats/cells/cell_rows.h"
+#include "harness/stats/cell_rows.h"
 
 namespace touchstone::cells {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/kinds/timed_set.h"
-#include "harness/record/facts.h"
+#include "harness/record/machine.h"
 #include "harness/record/result_folder.h"
 
 namespace touchstone::cells {

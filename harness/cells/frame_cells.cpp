@@ -11,10 +11,10 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/hash.h"
-#include "harness/cells/kinds.h"
-#include "harness/grade/pair_check.h"
+#include "harness/cells/read_cells.h"
+#include "harness/grade/answer_check.h"
 #include "harness/kinds/set_keys.h"
-#include "harness/measure/phases/block_input.h"
+#include "harness/measure/block_input.h"
 
 namespace touchstone::cells {
 namespace {

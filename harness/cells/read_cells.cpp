@@ -13,8 +13,6 @@
 #include <vector>
 
 #include "harness/base/hash.h"
-#include "harness/cells/kinds.h"
-#include "harness/files/folders/folder_name.h"
 #include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/kind.h"

@@ -8,9 +8,9 @@
 
 #include "harness/check/axes/axes.h"
 #include "harness/check/check_job.h"
-#include "harness/grade/answer_count.h"
-#include "harness/grade/pair_size.h"
-#include "harness/process/queries/limited_query.h"
+#include "harness/grade/graded_answer.h"
+#include "harness/grade/margins.h"
+#include "harness/process/limited_query.h"
 
 namespace touchstone::check {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "algorithms/core/aabb.h"
 #include "algorithms/registry.h"
-#include "harness/grade/pair_check.h"
+#include "harness/grade/answer_check.h"
 
 namespace touchstone::check {
 

@@ -11,7 +11,6 @@
 #include "harness/base/table.h"
 #include "harness/check/check_run.h"
 #include "harness/check/select_cases.h"
-#include "harness/files/folders/folder_name.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
 

@@ -11,7 +11,7 @@
 #include "algorithms/registry.h"
 #include "harness/check/regimes/regimes.h"
 #include "harness/kinds/kind.h"
-#include "harness/record/part.h"
+#include "harness/record/folder_files.h"
 
 namespace touchstone::check {
 

@@ -7,8 +7,8 @@
 
 #include "algorithms/pair_query.h"
 #include "harness/check/check_job.h"
-#include "harness/grade/encoding.h"
 #include "harness/grade/grade.h"
+#include "harness/grade/true_case.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::check {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "harness/check/check_rows.h"
-#include "harness/grade/answer_count.h"
+#include "harness/grade/graded_answer.h"
 
 namespace touchstone::check {
 namespace {

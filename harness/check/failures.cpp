@@ -10,11 +10,10 @@
 #include <utility>
 
 #include "harness/check/axes/axes.h"
-#include "harness/grade/failures/case_files.h"
 #include "harness/grade/failures/shrunk_failure.h"
 #include "harness/grade/wrong.h"
 #include "harness/kinds/kind.h"
-#include "harness/process/queries/limited_query.h"
+#include "harness/process/limited_query.h"
 #include "harness/process/worker_pool.h"
 
 namespace touchstone::check {

@@ -10,7 +10,7 @@
 #include "harness/check/check_job.h"
 #include "harness/grade/margins.h"
 #include "harness/process/isolate.h"
-#include "harness/process/queries/solve_case.h"
+#include "harness/process/solve_case.h"
 
 namespace touchstone::check {
 namespace {

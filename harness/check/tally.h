@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/check/check_job.h"
-#include "harness/grade/answer_count.h"
+#include "harness/grade/graded_answer.h"
 
 namespace touchstone::check {
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <set>
 
-#include "harness/base/shell_word.h"
+#include "harness/base/names.h"
 #include "harness/commands/commands.h"
 
 namespace touchstone::commands {

@@ -16,7 +16,7 @@
 #include "harness/check/select_cases.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/commands/pictures/figures.h"
+#include "harness/commands/pictures.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/text_file.h"
 

@@ -41,7 +41,7 @@
 // clang-format off
 
 TOUCHSTONE_COMMAND(touchstone, run, "[CAMPAIGN.toml]", "Measure", "Run a campaign: every scene through every algorithm, compared and timed")
-TOUCHSTONE_FILES(run, "run pictures/page")
+TOUCHSTONE_FILES(run, "run pictures")
 TOUCHSTONE_MORE_OPTION(run, "--plan")
 TOUCHSTONE_MORE_OPTION(run, "--report")
 TOUCHSTONE_MORE_KEY(run, "trade")

@@ -14,12 +14,12 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
-#include "harness/files/row_file.h"
+#include "harness/files/packed_files.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
 #include "harness/record/machine.h"
 #include "harness/record/result_folder.h"
-#include "harness/stats/cells/cell_results.h"
+#include "harness/stats/cell_results.h"
 #include "harness/stats/comparison.h"
 
 namespace touchstone::commands {

@@ -21,7 +21,7 @@
 
 #include "algorithms/core/isa.h"
 #include "harness/base/error.h"
-#include "harness/base/shell_word.h"
+#include "harness/base/names.h"
 #include "harness/commands/commands.h"
 #include "harness/process/standard_output.h"
 #include "harness/record/machine.h"

@@ -19,7 +19,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/input_file.h"
-#include "harness/base/shell_word.h"
+#include "harness/base/names.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/report.h"
@@ -29,7 +29,7 @@
 #include "harness/kinds/kind.h"
 #include "harness/kinds/questions.h"
 #include "harness/kinds/selection.h"
-#include "harness/process/isolated_lines.h"
+#include "harness/process/isolate.h"
 #include "harness/report/case_view.h"
 
 namespace touchstone::commands {

@@ -16,7 +16,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
-#include "harness/stats/cells/cell_results.h"
+#include "harness/stats/cell_results.h"
 #include "harness/stats/table_check.h"
 #include "harness/stats/tables/tables.h"
 

@@ -8,12 +8,12 @@
 #include <string_view>
 
 #include "harness/base/error.h"
-#include "harness/base/shell_word.h"
+#include "harness/base/names.h"
 #include "harness/campaign/plan.h"
 #include "harness/campaign/runner.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/commands/pictures/page.h"
+#include "harness/commands/pictures.h"
 #include "harness/commands/program.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/toml_table.h"

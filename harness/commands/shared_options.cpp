@@ -9,11 +9,11 @@
 #include <cstdio>
 
 #include "harness/base/error.h"
-#include "harness/base/file_name.h"
+#include "harness/base/names.h"
 #include "harness/commands/commands.h"
 #include "harness/files/text_file.h"
 #include "harness/record/build_info.h"
-#include "harness/record/own_files.h"
+#include "harness/record/folder_files.h"
 
 namespace touchstone::commands {
 

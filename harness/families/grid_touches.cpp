@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "algorithms/core/bounds.h"
-#include "harness/base/rotation_between.h"
+#include "harness/base/reproducible_math.h"
 
 namespace touchstone::families {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
-#include "harness/geometry/shapes/compound.h"
-#include "harness/geometry/shapes/scaled_shape.h"
+#include "harness/geometry/concave_bodies.h"
 #include "harness/geometry/signed_permutation.h"
+#include "harness/geometry/tessellation.h"
 
 namespace touchstone::families {
 namespace {

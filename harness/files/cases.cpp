@@ -1,11 +1,9 @@
-// Reads and writes cases; bodies are in shape_json.
+// Reads and writes cases; bodies are in case_json.
 #include "harness/files/cases.h"
 
 #include <array>
 
-#include "harness/files/concave/key_warnings.h"
-#include "harness/files/motion/case_json.h"
-#include "harness/files/shape_json.h"
+#include "harness/files/case_json.h"
 
 namespace touchstone::files {
 std::vector<Case> read_cases(const std::filesystem::path& file) {

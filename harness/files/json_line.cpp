@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "harness/base/file_text.h"
-#include "harness/files/line_reader.h"
+#include "harness/base/input_file.h"
+#include "harness/files/packed_files.h"
 
 namespace touchstone::files {
 namespace {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "harness/base/input_file.h"
+#include "harness/base/names.h"
 
 namespace touchstone::files {
 namespace {
@@ -298,6 +299,14 @@ void TomlTable::finish() const {
   throw base::InputError(file_, static_cast<std::int64_t>(unknown->source().begin.line),
                          fmt::format("{}unknown key {}; expected one of {}", place, unknown->str(),
                                      fmt::join(known_, ", ")));
+}
+
+std::string folder_name(TomlTable& table, const std::filesystem::path& file,
+                        const std::string& ending) {
+  std::string name = table.text("name", file.stem().string()) + ending;
+  const std::string fault = base::name_fault(name);
+  if (!fault.empty()) table.fail("name", fault);
+  return name;
 }
 
 }  // namespace touchstone::files

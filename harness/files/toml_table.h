@@ -103,4 +103,9 @@ class TomlTable {
   std::set<std::string, std::less<>> known_;
 };
 
+// Returns the value of the key `name`, or without the key the stem of `file`, and `ending` behind it.
+// Throws InputError with file and line if that cannot be the name of a folder (base::name_fault).
+std::string folder_name(TomlTable& table, const std::filesystem::path& file,
+                        const std::string& ending = "");
+
 }  // namespace touchstone::files

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "harness/base/error.h"
-#include "harness/base/file_text.h"
+#include "harness/base/input_file.h"
 #include "harness/geometry/mesh.h"
 
 namespace touchstone::geometry {

@@ -1,12 +1,16 @@
-// Convex polyhedra as lists of polygons, clipped by planes. Used by harness/proxies.
+// Convex polyhedra as lists of polygons, clipped by planes, and cuts of closed meshes. Used by
+// harness/proxies.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "algorithms/core/shape.h"
+#include "harness/geometry/mesh.h"
 
 namespace touchstone::geometry {
+
+// Convex polyhedra as lists of polygons, clipped by planes. Used by harness/proxies.
 
 struct Plane {
   Vec3d normal = Vec3d::UnitX();  // any nonzero length
@@ -14,7 +18,7 @@ struct Plane {
 };
 
 // Results are correct to rounding; certain claims about them are proven in
-// harness/proxies/certainty.h.
+// harness/proxies/local_body.h.
 class Polyhedron {
  public:
   static Polyhedron box(const Vec3d& low, const Vec3d& high);
@@ -43,5 +47,15 @@ struct Triangle {
 };
 std::vector<Triangle> triangles_of(const Hull& hull);
 double volume_of(std::span<const Triangle> triangles);  // metres cubed, for a closed surface
+
+// Returns the connected pieces on both sides of the plane, or none if the plane does not cut the
+// mesh. The plane is moved by a few millionths of the mesh's size if it would touch a vertex.
+//
+// Each edge that crosses the plane gets one point, shared by both sides. Each side is closed by
+// triangles from each loop of its rim to the loop's centre. So the winding numbers of the pieces
+// sum to that of the mesh with those points in it, wherever they are rounded to: by less than 8
+// units in the last place of the greatest coordinate. Triangles that close a rim which is not
+// convex may extend over it, and cancel; volumes are exact.
+std::vector<Mesh> cut(const Mesh& mesh, Plane plane);
 
 }  // namespace touchstone::geometry

@@ -1,4 +1,4 @@
-// Surface points of each shape, in arithmetic that rounds equally everywhere.
+// Surface points of each shape, in arithmetic that rounds equally everywhere, and scaled shapes.
 #include "harness/geometry/tessellation.h"
 
 #include <array>
@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/error.h"
@@ -151,6 +152,20 @@ Shape as_polytope(const Shape& shape, int level) {
   polytope.kind = ShapeKind::hull;
   polytope.hull = make_hull(surface_points(shape, level));
   return polytope;
+}
+
+Shape scaled_shape(Shape shape, double factor) {
+  if (shape.kind == ShapeKind::hull) {
+    std::vector<Vec3d> vertices = shape.hull->vertices;
+    for (Vec3d& v : vertices) v *= factor;
+    return hull_of(std::move(vertices));
+  }
+  shape.radius *= factor;
+  shape.half_length *= factor;
+  shape.half_extents *= factor;
+  shape.radii *= factor;
+  shape.offset *= factor;
+  return shape;
 }
 
 }  // namespace touchstone::geometry

@@ -1,4 +1,5 @@
-// Primitive shapes as polytopes. Used to draw, in scenes and as collision proxies.
+// Primitive shapes as polytopes, and shapes of another size. Used to draw, in scenes and as
+// collision proxies.
 #pragma once
 
 #include "algorithms/core/shape.h"
@@ -13,5 +14,9 @@ namespace touchstone::geometry {
 // moved apart. Cylinder and cone have 8 * 2^level sides. A hull is returned unchanged. Throws
 // InputError for a level outside 0 to 5 and for a half-space.
 Shape as_polytope(const Shape& shape, int level);
+
+// The shape with all lengths times the factor (> 0), about its body's origin. A hull's faces are found
+// anew, as its vertices are rounded.
+Shape scaled_shape(Shape shape, double factor);
 
 }  // namespace touchstone::geometry

@@ -1,4 +1,4 @@
-// One answer with its grades.
+// One answer with its grades, and counts of graded answers, with their greatest errors.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,8 @@
 #include "harness/grade/true_case.h"
 
 namespace touchstone::grade {
+
+// One answer with its grades.
 
 // A row of grades.csv. `regime` and `entry` are places in the lists of the request.
 struct GradedAnswer {
@@ -44,5 +46,44 @@ inline Query query_of(const GradedAnswer& answer) {
 // Grades an outcome. `algorithm` belongs to the query, `extreme` to its regime (margins.h).
 GradedAnswer grade_answer(const NarrowPhaseEntry& algorithm, bool extreme, const Query& query,
                           TrueCase& c, const Outcome& outcome);
+
+// Counts of graded answers, with their greatest errors.
+
+// Counts for one algorithm in one scalar, over all tasks. Each error is the greatest seen, as a
+// part of the scale (GradedAnswer::scale), or NaN if there is none.
+struct AnswerCount {
+  std::int64_t answers = 0;       // supported pairs that it was asked about
+  std::int64_t not_reported = 0;  // answers with status not_reported
+  std::int64_t silent = 0;        // answers on the wrong side of contact, against the given problem
+  std::int64_t silent_end = 0;    // answers on the wrong side of contact, against the case
+  std::int64_t honest = 0;        // failures that the algorithm reports as such
+  std::int64_t crashed = 0;
+  std::int64_t timed_out = 0;
+  std::int64_t within_resolution = 0;  // `touching` within bounds on the signed distance
+  std::int64_t touching = 0;           // answers about bodies that touch exactly
+  std::int64_t touching_contact = 0;   // number of these that are contact
+  std::int64_t bounds = 0;             // certified bounds that miss the exact value
+  std::int64_t not_a_number = 0;
+  std::int64_t beyond = 0;        // answers of ours beyond the documented margins
+  double resolution;              // distance between the bounds of `touching`
+  double honest_margin;           // exact |signed distance| of an honest failure
+  double margin, margin_end;      // exact |signed distance| with a wrong verdict
+  double distance, distance_end;  // |error| of a gap
+  double too_deep, too_shallow;   // errors of a depth, both >= 0, against the given problem
+  double depth_end;               // |error| of a depth, against the case
+  double does_not_separate;       // distance by which the reported translation fails to separate
+  double excess;                  // length of that translation beyond the necessary one
+  double bounds_missed;           // distance by which certified bounds miss, against the case
+  // Greatest distance of a point from its body; | |a - b| less the distance |.
+  double witness, witness_length;
+  double normal;  // | |n| - 1 |
+
+  AnswerCount();
+  void add(const GradedAnswer& answer);
+  void add(const AnswerCount& other);
+};
+
+// Keeps the greater of the two; an unknown number (NaN) does not count.
+void keep_greater(double& worst, double value);
 
 }  // namespace touchstone::grade

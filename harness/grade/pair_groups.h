@@ -10,6 +10,7 @@
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/shape.h"
 #include "algorithms/narrow_phase.h"
+#include "harness/base/hash.h"
 
 namespace touchstone::grade {
 
@@ -50,5 +51,16 @@ class PairGrouping {
 std::vector<PairGroup> group_by_kind(std::span<const IndexPair> pairs,
                                      std::span<const Shape> shapes,
                                      std::span<const std::uint32_t> shape_of);
+
+// All pairs of parts of two bodies that share a point, by number and fingerprint.
+
+struct PartList {
+  std::uint64_t count = 0, hash = 0;
+  bool operator==(const PartList&) const = default;
+};
+
+inline PartList part_list(std::span<const IndexPair> pairs) {
+  return {pairs.size(), base::pair_hash(pairs)};
+}
 
 }  // namespace touchstone::grade

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/grade/answer_count.h"
+#include "harness/grade/graded_answer.h"
 #include "harness/grade/margins.h"
 
 namespace touchstone::grade {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "harness/base/error.h"
-#include "harness/geometry/shapes/named_mesh.h"
+#include "harness/geometry/mesh_shapes.h"
 
 namespace touchstone::kinds {
 

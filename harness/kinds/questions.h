@@ -15,13 +15,12 @@
 
 #include "algorithms/algorithm_info.h"
 #include "algorithms/core/outcome.h"
-#include "harness/files/concave/concave_cases.h"
+#include "harness/files/concave_cases.h"
 #include "harness/files/csv.h"
 #include "harness/files/output_file.h"
 #include "harness/kinds/kind.h"
 #include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
-#include "harness/process/isolated_lines.h"
 
 namespace touchstone::kinds {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "harness/base/error.h"
-#include "harness/base/file_text.h"
+#include "harness/base/input_file.h"
 #include "harness/files/json_line.h"
-#include "harness/files/line_reader.h"
+#include "harness/files/packed_files.h"
 #include "harness/kinds/pair/pair_cases.h"
 #include "harness/kinds/selection.h"
 #include "harness/scene/mesh_frames.h"

@@ -17,13 +17,13 @@ namespace {
 
 std::atomic<bool> counting = false;
 std::atomic<std::int64_t> calls = 0;
-std::atomic<std::int64_t> bytes = 0;
+std::atomic<std::int64_t> asked_bytes = 0;
 
 #if TOUCHSTONE_COUNTS_ALLOCATIONS
 void count(std::size_t size) {
   if (!counting.load(std::memory_order_relaxed)) return;
   calls.fetch_add(1, std::memory_order_relaxed);
-  bytes.fetch_add(static_cast<std::int64_t>(size), std::memory_order_relaxed);
+  asked_bytes.fetch_add(static_cast<std::int64_t>(size), std::memory_order_relaxed);
 }
 #endif
 
@@ -33,7 +33,7 @@ bool can_count_allocations() { return TOUCHSTONE_COUNTS_ALLOCATIONS != 0; }
 
 AllocationCount::AllocationCount() {
   calls = 0;
-  bytes = 0;
+  asked_bytes = 0;
   counting = true;
 }
 
@@ -41,7 +41,7 @@ AllocationCount::~AllocationCount() { counting = false; }
 
 Allocations AllocationCount::so_far() const {
   if (!can_count_allocations()) return {};
-  return {.calls = calls, .bytes = bytes};
+  return {.calls = calls, .bytes = asked_bytes};
 }
 
 }  // namespace touchstone::measure

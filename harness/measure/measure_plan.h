@@ -1,4 +1,4 @@
-// The plan of a measurement: contestants, sets and groups, squares, windows, processes.
+// The plan of a measurement: contestants, sets and groups, Latin squares, windows, processes.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "harness/measure/latin_square.h"
+#include "harness/base/random.h"
 #include "harness/measure/worker.h"
 
 namespace touchstone::measure {
+
+// Latin squares: the order in which contestants run.
+
+// The entry of round r and position p is one of `size` contestants. Each occurs once in every round
+// and once in every position, so that neither the first position nor a drift over the rounds
+// favours one. It is a cyclic square with its rounds, positions and contestants shuffled (Fisher
+// and Yates 1938).
+using LatinSquare = std::vector<std::vector<std::size_t>>;
+LatinSquare latin_square(std::size_t size, base::Random& random);
+
+// The plan of a measurement: contestants, sets and groups, squares, windows, processes.
 
 // Anything that can be timed. If two contestants of a set differ only by `control`, the one with it
 // is the A/A control: the difference of their times is the error of the measurement.

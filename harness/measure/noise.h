@@ -1,4 +1,5 @@
-// Noise: other work of the machine during a measurement.
+// Noise: other work of the machine during a measurement, and the time in which this process waited
+// for a processor.
 #pragma once
 
 #include <cstdint>
@@ -40,5 +41,14 @@ struct MachineLoad {
   // is known.
   std::string objection() const;
 };
+
+// Returns seconds, summed over the existing threads (proc(5), /proc/PID/schedstat); nothing if the
+// system does not report it. Unlike the number of switches it measures the time lost.
+std::optional<double> run_delay();
+
+// Returns when this process has been at rest for a tenth of a millisecond, or after five: a thread
+// of an executor looks for more work for a while before it sleeps, and would do so in the time of
+// the next contestant.
+void come_to_rest();
 
 }  // namespace touchstone::measure

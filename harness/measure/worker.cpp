@@ -21,7 +21,7 @@
 #include "harness/base/clock.h"
 #include "harness/base/random.h"
 #include "harness/measure/hardware_counters.h"
-#include "harness/measure/run_delay.h"
+#include "harness/measure/noise.h"
 
 namespace touchstone::measure {
 namespace {

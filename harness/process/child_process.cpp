@@ -1,8 +1,10 @@
-// Forks a child, limits its memory, and collects how it ended and its last words.
+// Forks a child, limits its memory, collects how it ended and its last words, and puts its ending
+// into words.
 #include "harness/process/child_process.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -15,6 +17,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <stdexcept>
@@ -25,6 +28,37 @@
 #include "harness/base/clock.h"
 
 namespace touchstone::process {
+
+std::string_view to_string(ItemState state) {
+  switch (state) {
+    case ItemState::done: return "ok";
+    case ItemState::threw: return "threw";
+    case ItemState::crashed: return "crashed";
+    case ItemState::timed_out: return "timed_out";
+    case ItemState::not_run:
+    case ItemState::running: break;
+  }
+  return "not_run";
+}
+
+Status status_of(ItemState state) {
+  if (state == ItemState::done) return Status::ok;
+  return state == ItemState::timed_out ? Status::timed_out : Status::crashed;
+}
+
+std::string IsolationFailure::reason() const {
+  std::string text;
+  switch (state) {
+    case ItemState::timed_out: text = "no answer in time"; break;
+    case ItemState::threw: text = "threw"; break;
+    default:
+      text = signal != 0 ? fmt::format("killed by signal {} ({})", signal, strsignal(signal))
+                         : fmt::format("left by exit({})", exit_code);
+  }
+  if (in_setup) text += " while it was set up";
+  return words.empty() ? text : text + ": " + words;
+}
+
 namespace {
 
 // Lets this process allocate `bytes` beyond what it holds now; further allocations fail.

@@ -4,17 +4,88 @@
 // last words.
 #pragma once
 
+#include <sys/mman.h>
 #include <sys/types.h>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <new>
+#include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
-#include "harness/process/ending.h"
-#include "harness/process/shared_array.h"
+#include "algorithms/core/status.h"
 
 namespace touchstone::process {
+
+// An array of `size` value-initialised elements. Elements hold no pointers to memory of their own.
+template <class T>
+class SharedArray {
+ public:
+  static_assert(std::is_trivially_destructible_v<T>);
+
+  explicit SharedArray(std::size_t size) : size_(size) {
+    if (size == 0) return;
+    void* const memory = mmap(nullptr, size * sizeof(T), PROT_READ | PROT_WRITE,
+                              MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    data_ = static_cast<T*>(memory);
+    std::uninitialized_value_construct_n(data_, size);
+  }
+  ~SharedArray() {
+    if (data_ != nullptr) munmap(data_, size_ * sizeof(T));
+  }
+  SharedArray(const SharedArray&) = delete;
+  SharedArray& operator=(const SharedArray&) = delete;
+
+  std::size_t size() const { return size_; }
+  T& operator[](std::size_t i) { return data_[i]; }
+  const T& operator[](std::size_t i) const { return data_[i]; }
+  std::span<T> span() { return {data_, size_}; }
+  std::span<const T> span() const { return {data_, size_}; }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+enum class ItemState : std::uint8_t {
+  not_run,    // never begun, since too many items failed before it
+  running,    // begun, and not ended yet
+  done,       // its work returned
+  threw,      // its work, or the setup before it, threw
+  crashed,    // its work ended the child: a signal, an assertion, exit()
+  timed_out,  // it was stopped
+};
+
+// Returns "ok" for `done`, "threw", "crashed" or "timed_out"; "not_run" for work that did not end.
+std::string_view to_string(ItemState state);
+
+// The status of an answer whose item ended in this state: ok for `done`, timed_out for a stopped
+// item, crashed for all else.
+Status status_of(ItemState state);
+
+// Returns whether an answer is missing because the query ended its process or was stopped.
+inline bool is_lost(Status status) {
+  return status == Status::crashed || status == Status::timed_out;
+}
+
+struct IsolationFailure {
+  std::size_t item = 0;
+  // The setup failed; `item` is the item that it preceded. This ends the whole work.
+  bool in_setup = false;
+  ItemState state = ItemState::crashed;
+  int signal = 0;     // signal that ended the child, or 0
+  int exit_code = 0;  // status of a child that left by exit()
+  std::string words;  // text of the exception, or the last output of the child; may be empty
+
+  // Returns words such as "killed by signal 11 (Segmentation fault)" or "no answer in time".
+  std::string reason() const;
+};
 
 // Throws std::logic_error if this process has more threads than the calling one, since a forked
 // child then finds their locks held for ever. A used Executor of more than one thread is such a

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "harness/base/file_text.h"
+#include "harness/base/input_file.h"
 #include "harness/base/progress.h"
 
 namespace touchstone::process {

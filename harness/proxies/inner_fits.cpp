@@ -1,5 +1,5 @@
 // Inner proxies of a convex body: each shrinks until its clearance is certain.
-#include "harness/proxies/inner_fits.h"
+#include "harness/proxies/fits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,8 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/error.h"
-#include "harness/geometry/greatest_copy.h"
+#include "harness/geometry/optimal_fits.h"
 #include "harness/geometry/tessellation.h"
-#include "harness/proxies/outer_fits.h"
 
 namespace touchstone::proxies {
 namespace {

@@ -1,5 +1,5 @@
 // Inner proxies of closed meshes: candidates from sample points, proven with the exact oracle.
-#include "harness/proxies/mesh_inside.h"
+#include "harness/proxies/fits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "algorithms/hull/convex_hull.h"
 #include "algorithms/oracle/oracle.h"
 #include "harness/base/error.h"
-#include "harness/geometry/greatest_copy.h"
+#include "harness/geometry/optimal_fits.h"
 #include "harness/proxies/local_body.h"
 #include "harness/proxies/placed_solid.h"
 

@@ -1,5 +1,5 @@
 // Outer proxies: ball, boxes, k-DOPs and hulls with proven containment.
-#include "harness/proxies/outer_fits.h"
+#include "harness/proxies/fits.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/error.h"
-#include "harness/geometry/enclosing_ball.h"
+#include "harness/geometry/optimal_fits.h"
 #include "harness/geometry/tessellation.h"
-#include "harness/proxies/certainty.h"
+#include "harness/proxies/local_body.h"
 
 namespace touchstone::proxies {
 namespace {

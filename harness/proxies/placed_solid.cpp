@@ -1,4 +1,5 @@
-// Distances, volumes and extreme points of convex solids.
+// Distances, volumes and extreme points of convex solids; splits a body into convex solids and
+// closed surfaces.
 #include "harness/proxies/placed_solid.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "harness/base/error.h"
 #include "harness/geometry/tessellation.h"
 #include "harness/proxies/local_body.h"
+#include "harness/proxies/union_volume.h"
 
 namespace touchstone::proxies {
 namespace {
@@ -259,6 +261,32 @@ std::optional<std::pair<double, double>> PlacedSolid::along_line(const Vec3d& fr
     }
     default: return std::nullopt;
   }
+}
+
+WholeBody::WholeBody(const LocalBody& body, const Mat3d& turn) {
+  if (body.mesh.triangles.empty()) {
+    convex.emplace_back(body.shape, Pose{}, turn);
+    surface = convex.front().surface();
+    return;
+  }
+  for (geometry::MeshPiece& piece : geometry::pieces_of(body.mesh)) {
+    for (Vec3d& v : piece.mesh.vertices) v = turn * v;
+    std::vector<geometry::Triangle> triangles = geometry::triangles_of(piece.mesh);
+    surface.insert(surface.end(), triangles.begin(), triangles.end());
+    if (piece.closed) {
+      closed.insert(closed.end(), triangles.begin(), triangles.end());
+      continue;
+    }
+    Shape hull;
+    hull.kind = ShapeKind::hull;
+    hull.hull = make_reduced_hull(piece.mesh.vertices);
+    convex.emplace_back(hull, Pose{});
+  }
+}
+
+double WholeBody::volume() const {
+  if (closed.empty() && convex.size() == 1) return convex.front().volume();
+  return overlap_of(convex, closed, {}).body;
 }
 
 }  // namespace touchstone::proxies

@@ -1,5 +1,5 @@
-// Convex solids at their poses, for the measurement of proxies' errors. Results are correct to
-// rounding.
+// Convex solids at their poses, and a body as a union of solids, for the measurement of proxies'
+// errors. Results are correct to rounding.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/geometry/mesh_solid.h"
+#include "harness/proxies/local_body.h"
 #include "harness/proxies/representation.h"
 
 namespace touchstone::proxies {
@@ -93,5 +94,16 @@ double PlacedSolid::greatest(const Function& f) const {
   }
   return best;
 }
+
+// Solids in the local frame, rotated by `turn`. The body is the union of the convex ones and of what
+// the closed surface winds around.
+struct WholeBody {
+  WholeBody(const LocalBody& body, const Mat3d& turn);
+
+  std::vector<PlacedSolid> convex;          // hulls of open pieces, or a body without mesh
+  std::vector<geometry::Triangle> closed;   // the closed pieces of a mesh
+  std::vector<geometry::Triangle> surface;  // approximate if round
+  double volume() const;                    // of a mesh as in union_volume.h
+};
 
 }  // namespace touchstone::proxies

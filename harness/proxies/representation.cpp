@@ -9,11 +9,9 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/error.h"
-#include "harness/proxies/inner_fits.h"
-#include "harness/proxies/mesh_inside.h"
-#include "harness/proxies/outer_fits.h"
-#include "harness/proxies/parts/decomposition.h"
-#include "harness/proxies/whole_body.h"
+#include "harness/proxies/decomposition.h"
+#include "harness/proxies/fits.h"
+#include "harness/proxies/placed_solid.h"
 
 namespace touchstone::proxies {
 namespace {

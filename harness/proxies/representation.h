@@ -55,8 +55,8 @@ struct Part {
 
 // Returns the proxy of a body with this shape, and with this mesh if it has one; the shape is then
 // the mesh's convex hull. It has at least one part. Outer and inner proxies are proven in spite of
-// rounding; their quality is described in outer_fits.h, inner_fits.h, mesh_inside.h and
-// parts/decomposition.h. A mesh's solid is that of mesh_solid.h. Throws InputError if there is no such
+// rounding; their quality is described in fits.h and
+// decomposition.h. A mesh's solid is that of mesh_solid.h. Throws InputError if there is no such
 // proxy: an inner one of a flat body or of an open mesh, a nearest one of a flat body or of several
 // parts, any but as_given of a half-space, a mesh of a body without one, and another side of
 // as_given and mesh.

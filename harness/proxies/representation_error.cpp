@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/proxies/fits.h"
 #include "harness/proxies/local_body.h"
-#include "harness/proxies/outer_fits.h"
+#include "harness/proxies/placed_solid.h"
 #include "harness/proxies/union_volume.h"
-#include "harness/proxies/whole_body.h"
 
 namespace touchstone::proxies {
 namespace {

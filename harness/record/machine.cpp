@@ -1,4 +1,4 @@
-// Reads the facts of machine, program and source.
+// Reads the facts of machine, program and source, and files of facts.
 #include "harness/record/machine.h"
 
 #include <fmt/chrono.h>
@@ -25,11 +25,32 @@
 
 #include "algorithms/core/isa.h"
 #include "harness/base/hash.h"
-#include "harness/base/shell_word.h"
+#include "harness/base/names.h"
 #include "harness/record/build.h"
 #include "harness/record/build_info.h"
 
 namespace touchstone::record {
+
+Facts read_facts(const std::filesystem::path& file) {
+  Facts facts;
+  files::CsvReader(file, {"name", "value"}).read([&](const files::CsvReader::Row& row) {
+    facts.emplace_back(row.text(0), row.text(1));
+  });
+  return facts;
+}
+
+void write_facts(const std::filesystem::path& file, const Facts& facts,
+                 files::CsvWriter::Durable durable) {
+  files::CsvWriter csv(file, {"name", "value"});
+  for (const auto& [name, value] : facts) csv.field(name).field(value).end_row();
+  csv.close(durable);
+}
+
+std::string value_of(const Facts& facts, std::string_view name) {
+  const auto at = std::ranges::find(facts, name, &Facts::value_type::first);
+  return at == facts.end() ? "" : at->second;
+}
+
 namespace {
 
 constexpr std::string_view unknown = "unknown";

@@ -21,10 +21,10 @@
 
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
-#include "harness/files/folders/file_hash.h"
-#include "harness/files/row_file.h"
+#include "harness/files/packed_files.h"
+#include "harness/files/text_file.h"
+#include "harness/record/folder_files.h"
 #include "harness/record/machine.h"
-#include "harness/record/own_files.h"
 
 namespace touchstone::record {
 namespace {

@@ -5,7 +5,7 @@
 // - progress.csv (name,value): the number of finished units of work, and the length and hash of each
 //   row file at that moment. An interrupted unit (a round, a job, a cell) is measured anew;
 // - machine.csv (name,value): the identity of the work, facts of the machine, and `finished`;
-// - files.txt: further files that this program wrote (harness/record/own_files.h).
+// - files.txt: further files that this program wrote (harness/record/folder_files.h).
 // A kill at any moment loses at most the current unit. Files of others stay.
 #pragma once
 
@@ -19,9 +19,9 @@
 
 #include "harness/base/error.h"
 #include "harness/files/csv.h"
-#include "harness/record/facts.h"
+#include "harness/record/folder_files.h"
+#include "harness/record/machine.h"
 #include "harness/record/row.h"
-#include "harness/record/row_progress.h"
 
 namespace touchstone::record {
 

@@ -1,7 +1,7 @@
 // Helpers of rows.
 #include "harness/record/row.h"
 
-#include "harness/base/file_text.h"
+#include "harness/base/input_file.h"
 
 namespace touchstone::record {
 

@@ -5,12 +5,12 @@
 
 #include "algorithms/oracle/answer.h"
 #include "algorithms/registry.h"
-#include "harness/base/shell_word.h"
-#include "harness/geometry/shapes/compound.h"
+#include "harness/base/names.h"
+#include "harness/geometry/concave_bodies.h"
 #include "harness/grade/graded_answer.h"
 #include "harness/grade/wrong.h"
 #include "harness/process/isolate.h"
-#include "harness/process/queries/solve_case.h"
+#include "harness/process/solve_case.h"
 #include "harness/record/build_info.h"
 #include "harness/report/body_view.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "harness/files/cases.h"
-#include "harness/files/concave/concave_cases.h"
+#include "harness/files/concave_cases.h"
 #include "harness/files/json_line.h"
 
 namespace touchstone::report {

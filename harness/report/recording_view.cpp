@@ -8,8 +8,7 @@
 
 #include "harness/report/body_view.h"
 #include "harness/report/packed_numbers.h"
-#include "harness/report/scene_pairs.h"
-#include "harness/report/structure_view.h"
+#include "harness/report/scene_view.h"
 
 namespace touchstone::report {
 namespace {

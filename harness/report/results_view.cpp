@@ -17,11 +17,10 @@
 #include <vector>
 
 #include "harness/base/error.h"
-#include "harness/files/byte_reader.h"
-#include "harness/files/row_file.h"
+#include "harness/files/packed_files.h"
 #include "harness/report/case_view.h"
-#include "harness/stats/cells/cell_results.h"
-#include "harness/stats/cells/cell_tables.h"
+#include "harness/stats/cell_results.h"
+#include "harness/stats/cell_tables.h"
 #include "harness/stats/samples.h"
 #include "harness/stats/tables/tables.h"
 

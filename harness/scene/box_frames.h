@@ -1,15 +1,33 @@
-// Frames of boxes from files, for broad phases without a scene.
+// Frames of boxes from files, for broad phases without a scene, and Broadmark's recordings of
+// boxes.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "algorithms/broad_phase.h"
+#include "algorithms/core/aabb.h"
 #include "harness/files/csv.h"
 
 namespace touchstone::scene {
+
+// A recording: equally many boxes in each frame, at least one frame.
+struct BoxRecording {
+  std::string scene, type;  // at most 127 bytes each; free text
+  Aabb world;
+  std::vector<std::vector<Aabb>> frames;
+};
+
+// Reads the binary format of Broadmark's .aabbs files (Serpa and Rodrigues, "Broadmark: A Testing
+// Framework for Broad-Phase Collision Detection Algorithms", Computer Graphics Forum 2020),
+// little-endian. Throws InputError with the file's name and the place for a short file, a wrong
+// count, NaN, or min > max.
+BoxRecording read_aabbs(const std::filesystem::path& file);
+// Writes the file whole or not at all (a temporary file, renamed).
+void write_aabbs(const BoxRecording& recording, const std::filesystem::path& file);
 
 struct BoxFrame {
   std::int64_t number = 0;  // the file's number

@@ -1,9 +1,10 @@
-// Advances poses and velocities in plain arithmetic.
+// Advances poses and velocities in plain arithmetic, and makes steps of them.
 #include "harness/scene/kinematics.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/error.h"
 #include "harness/base/random.h"
 
 namespace touchstone::scene {
@@ -133,6 +134,32 @@ void Kinematics::next() {
   base::Random random(~motion.seed, static_cast<std::uint64_t>(frame_));
   if (motion.teleports > 0) exchange_places(random);
   if (motion.churn > 0) replace_some(random);
+}
+
+std::vector<MotionStep> motion_steps(const Scene& scene, const std::filesystem::path& file) {
+  if (!scene.recording.empty() || !scene.pairs.empty()) {
+    throw base::InputError(file.string(), 0,
+                           "has boxes or pairs alone; expected bodies that move in a step");
+  }
+  if (scene.motion.teleports > 0 || scene.motion.churn > 0) {
+    throw base::InputError(file.string(), 0,
+                           "has bodies that jump, arrive or leave; expected bodies that move");
+  }
+  std::vector<MotionStep> steps;
+  Kinematics kinematics(scene);
+  for (int frame = 0; frame < scene.frames; ++frame) {
+    MotionStep& step = steps.emplace_back();
+    step.poses.assign(kinematics.poses().begin(), kinematics.poses().end());
+    step.motions.resize(step.poses.size());
+    kinematics.next();
+    for (std::size_t i = 0; i < step.motions.size(); ++i) {
+      const Body& body = scene.bodies[i];
+      if (!body.moving) continue;
+      step.motions[i].displacement = kinematics.poses()[i].translation - step.poses[i].translation;
+      step.motions[i].rotation_vector = scene.motion.time_step * body.angular_velocity;
+    }
+  }
+  return steps;
 }
 
 }  // namespace touchstone::scene

@@ -1,10 +1,14 @@
-// The poses of a scene's bodies, frame by frame.
+// The poses of a scene's bodies, frame by frame, and its steps as motions: where bodies are in a
+// frame, and how they get to the next.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
+#include "algorithms/core/motion.h"
+#include "algorithms/core/pose.h"
 #include "harness/base/random.h"
 #include "harness/scene/scene.h"
 
@@ -45,5 +49,17 @@ class Kinematics {
   std::vector<std::uint32_t> absent_;
   std::vector<char> present_;  // for each body; only if bodies arrive and leave
 };
+
+// A body of the scene has the same index in both lists.
+struct MotionStep {
+  std::vector<Pose> poses;  // in the frame
+  std::vector<touchstone::Motion> motions;
+};
+
+// Returns a step for each frame, from it to the next: as many steps as the scene has frames. In a
+// step a body goes straight to its place in the next frame, also where that is on a curve or behind a
+// wall's reflection, and turns evenly by its angular velocity. Throws InputError with the name of the
+// file if the scene has no bodies, or if they jump, arrive or leave.
+std::vector<MotionStep> motion_steps(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace touchstone::scene

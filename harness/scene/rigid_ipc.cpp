@@ -15,7 +15,7 @@
 #include "harness/base/error.h"
 #include "harness/base/reproducible_math.h"
 #include "harness/geometry/mesh.h"
-#include "harness/geometry/mesh_mass.h"
+#include "harness/geometry/mesh_solid.h"
 #include "harness/scene/concave_shape.h"
 #include "harness/scene/json_object.h"
 

@@ -14,6 +14,7 @@
 #include "algorithms/core/pair_sink.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
+#include "algorithms/scene_ray_cast.h"
 #include "harness/files/output_file.h"
 #include "harness/geometry/mesh.h"
 
@@ -131,5 +132,13 @@ Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overri
 // Returns 16 hexadecimal digits that depend on all inputs of an algorithm: shapes, every frame's
 // poses, or the recording. Equal on every platform.
 std::string scene_hash(const Scene& scene);
+
+// Writes a scene file that load_scene turns into the same bodies, at rest, and an OFF file beside it for
+// each mesh. Each body has a part, and half-spaces are bodies of their own. Where parts of a compound were
+// placed within others, that their poses are rounded is lost.
+void write_scene(const std::filesystem::path& file, std::span<const SceneBody> bodies);
+
+// Writes the mesh so that it is read with the same bits, in the format OFF.
+void write_off(const std::filesystem::path& file, const TriangleMesh& mesh);
 
 }  // namespace touchstone::scene

@@ -7,11 +7,11 @@
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/reproducible_math.h"
+#include "harness/geometry/concave_bodies.h"
 #include "harness/geometry/mesh.h"
-#include "harness/geometry/mesh_mass.h"
-#include "harness/geometry/shapes/compound.h"
-#include "harness/scene/placement.h"
-#include "harness/scene/shapes/made_mesh.h"
+#include "harness/geometry/mesh_solid.h"
+#include "harness/scene/body_reader.h"
+#include "harness/scene/concave_shape.h"
 
 namespace touchstone::scene {
 namespace {

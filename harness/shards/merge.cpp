@@ -13,14 +13,11 @@
 #include <utility>
 
 #include "harness/base/error.h"
-#include "harness/base/file_name.h"
-#include "harness/files/byte_reader.h"
-#include "harness/files/row_file.h"
-#include "harness/files/zstd_writer.h"
+#include "harness/base/names.h"
+#include "harness/files/packed_files.h"
+#include "harness/record/folder_files.h"
 #include "harness/record/machine.h"
-#include "harness/record/own_files.h"
-#include "harness/shards/machines.h"
-#include "harness/shards/shard_run.h"
+#include "harness/shards/shard_folder.h"
 #include "harness/shards/status.h"
 
 namespace touchstone::shards {

@@ -1,13 +1,16 @@
-// The state of the shards of a plan.
+// The state of the shards of a plan, and the machines that did its parts.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "harness/record/result_folder.h"
 #include "harness/shards/shard_folder.h"
 #include "harness/shards/shard_plan.h"
 
@@ -42,5 +45,22 @@ std::string status_text(const ShardPlan& plan, const PlanStatus& status);
 
 // Returns a list such as "3,17-19" of ascending numbers.
 std::string list_of(const std::vector<std::int64_t>& numbers);
+
+// Names machines by their hosts. A host whose facts changed from one part to another, such as its
+// kernel, counts as another machine: "n7" and "n7-2".
+class Machines {
+ public:
+  // Returns the name of the machine with these facts of a part's machine.csv.
+  std::string name_of(const record::Facts& part);
+
+  std::size_t size() const { return facts_.size(); }
+  // Returns the facts that all machines share; the others say that they differ.
+  record::Facts shared() const;
+  // Writes FOLDER/machines/NAME/machine.csv for each.
+  void write(const std::filesystem::path& folder) const;
+
+ private:
+  std::map<std::string, record::Facts> facts_;  // by the machine's name
+};
 
 }  // namespace touchstone::shards

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "harness/base/unit_range.h"
-#include "harness/record/part.h"
+#include "harness/record/folder_files.h"
 #include "harness/record/result_folder.h"
 
 namespace touchstone::shards {

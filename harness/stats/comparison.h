@@ -1,4 +1,5 @@
-// Compares two results of the same campaign, cell by cell: is B slower than A?
+// Compares two results of the same campaign, cell by cell: is B slower than A? First it decides
+// whether they are comparable, and lists what differs between them.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +8,30 @@
 #include <vector>
 
 #include "harness/record/row.h"
-#include "harness/stats/comparable.h"
-#include "harness/stats/key_columns.h"
 #include "harness/stats/samples.h"
 #include "harness/stats/statistics.h"
 
 namespace touchstone::stats {
+
+// The names of the two results in messages.
+struct ResultNames {
+  std::string a = "A", b = "B";
+};
+
+// Cells of A that B lacks, each a line for the user.
+struct Missing {
+  std::vector<std::string> scenes;  // the same scene has another hash in B
+  std::vector<std::string> cells;   // B did not run it
+};
+Missing missing(const Results& a, const Results& b, const ResultNames& names = {});
+
+// Returns the reasons against a comparison of times, each a line; none if A and B are comparable.
+// `machines`: the machines must be equal too.
+std::vector<std::string> obstacles(const Results& a, const Results& b, bool machines);
+
+// Differences that may explain a difference in time: compiler, flags, library versions, commit,
+// algorithms that only B has.
+std::vector<std::string> remarks(const Results& a, const Results& b);
 
 // One contestant of one set, in A and in B.
 struct ComparedCell {

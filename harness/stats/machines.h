@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "harness/stats/key_columns.h"
+#include "harness/stats/samples.h"
 #include "harness/stats/summary.h"
 
 namespace touchstone::stats {

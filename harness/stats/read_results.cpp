@@ -10,8 +10,8 @@
 
 #include "harness/base/error.h"
 #include "harness/files/csv.h"
-#include "harness/files/row_file.h"
-#include "harness/record/facts.h"
+#include "harness/files/packed_files.h"
+#include "harness/record/machine.h"
 #include "harness/stats/machines.h"
 #include "harness/stats/statistics.h"
 
@@ -27,7 +27,7 @@ constexpr std::array<std::int64_t record::RawRow::*, work_count> work_fields = {
     &record::RawRow::allocated_bytes};
 
 // The noise of a set's last row if the run's baseline and its twin differ significantly.
-constexpr std::string_view canary = "canary";
+constexpr std::string_view canary_flag = "canary";
 
 bool is_failure(std::optional<record::RowStatus> status) {
   return status == record::RowStatus::crashed || status == record::RowStatus::timed_out ||
@@ -91,7 +91,7 @@ class Reader {
     SampleSet& set = set_of(row);
     expect_least("frame", row.frame, 0);
     if (!row.stop.empty()) set.stop = row.stop;
-    if (row.noise.ends_with(canary)) set.suspect = true;
+    if (row.noise.ends_with(canary_flag)) set.suspect = true;
     Contestant& contestant = contestant_of(set, row);
     if (is_failure(row.status)) contestant.failure = row.status;
     if (row.kind == record::RowKind::sample) {
@@ -134,7 +134,7 @@ class Reader {
     sample.units = static_cast<double>(units);
     sample.frame = row.frame;
     sample.worst_frame = row.worst_frame;
-    sample.noisy = !row.noise.empty() && row.noise != canary;
+    sample.noisy = !row.noise.empty() && row.noise != canary_flag;
     add_phase(contestant, row.phase, sample, row.seconds);
   }
 

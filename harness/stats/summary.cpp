@@ -12,9 +12,9 @@
 #include <ranges>
 #include <utility>
 
-#include "harness/base/shell_word.h"
+#include "harness/base/names.h"
 #include "harness/files/text_file.h"
-#include "harness/stats/published_check.h"
+#include "harness/stats/table_check.h"
 #include "harness/stats/tables/table_parts.h"
 
 namespace touchstone::stats {

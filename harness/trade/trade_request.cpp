@@ -6,7 +6,6 @@
 
 #include <limits>
 
-#include "harness/files/folders/folder_name.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
 

@@ -6,8 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "harness/files/row_file.h"
-#include "harness/files/zstd_writer.h"
+#include "harness/files/packed_files.h"
 
 namespace touchstone {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "harness/files/folders/file_hash.h"
-#include "harness/record/row_progress.h"
+#include "harness/files/text_file.h"
+#include "harness/record/folder_files.h"
 
 namespace touchstone {
 

@@ -8,7 +8,7 @@
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/check/regimes/features.h"
 #include "harness/check/regimes/regime_draws.h"
-#include "harness/grade/pair_size.h"
+#include "harness/grade/margins.h"
 
 namespace touchstone::check {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "algorithms/hull/convex_hull.h"
-#include "harness/base/plain_math.h"
 #include "harness/base/reproducible_math.h"
 #include "harness/check/regimes/check_shapes.h"
 

@@ -4,7 +4,7 @@
 // bodies' axes lie along the world's.
 #include <array>
 
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/check/axes/axes.h"
 #include "harness/check/axes/axis_draws.h"
 #include "harness/check/regimes/check_shapes.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "algorithms/hull/convex_hull.h"
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 
 namespace touchstone::check {
 namespace {

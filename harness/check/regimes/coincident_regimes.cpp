@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/check/regimes/features.h"
 #include "harness/check/regimes/regime_draws.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "algorithms/hull/convex_hull.h"
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/check/regimes/features.h"
 #include "harness/check/regimes/regime_draws.h"
 #include "harness/geometry/signed_permutation.h"

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "algorithms/hull/convex_hull.h"
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/check/regimes/regime_draws.h"
-#include "harness/geometry/shapes/scaled_shape.h"
+#include "harness/geometry/tessellation.h"
 
 namespace touchstone::check {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 
 namespace touchstone::check {
 namespace {

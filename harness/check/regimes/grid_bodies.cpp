@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/check/regimes/check_shapes.h"
 #include "harness/geometry/signed_permutation.h"
-#include "harness/grade/pair_size.h"
+#include "harness/grade/margins.h"
 
 namespace touchstone::check {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/check/regimes/check_shapes.h"
-#include "harness/grade/pair_size.h"
+#include "harness/grade/margins.h"
 
 namespace touchstone::check {
 namespace {

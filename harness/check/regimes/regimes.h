@@ -14,7 +14,7 @@
 
 #include "harness/base/random.h"
 #include "harness/files/cases.h"
-#include "harness/grade/pair_size.h"
+#include "harness/grade/margins.h"
 
 namespace touchstone::check {
 

@@ -1,4 +1,5 @@
-// touchstone scene describe: prints what a scene holds.
+// touchstone scene describe: prints what a scene holds. touchstone scene hash: prints its hash.
+#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -112,6 +113,28 @@ void add_scene_describe(Arguments command) {
   command.footer("Sizes are the longest edges of the bodies' boxes in frame 0.");
   command.job([options] {
     describe(*options);
+    return exit_done;
+  });
+}
+
+namespace {
+
+struct HashOptions {
+  std::string scene;
+  scene::SceneOverrides overrides;
+};
+
+}  // namespace
+
+void add_scene_hash(Arguments command) {
+  auto options = std::make_shared<HashOptions>();
+  command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
+      .required();
+  command.number("--frames", options->overrides.frames, "Instead of the scene's own")
+      .within(1, 1'000'000);
+  add_scene_overrides(command, options->overrides);
+  command.job([options] {
+    fmt::print("{}\n", scene::scene_hash(scene::load_scene(options->scene, options->overrides)));
     return exit_done;
   });
 }

@@ -13,7 +13,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/draw/scene_picture.h"
 #include "harness/grade/pair_groups.h"
-#include "harness/measure/phases/narrow_choice.h"
+#include "harness/measure/narrow_choice.h"
 #include "harness/scene/player.h"
 
 namespace touchstone::commands {

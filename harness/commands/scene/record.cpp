@@ -11,7 +11,6 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
-#include "harness/scene/aabbs.h"
 #include "harness/scene/box_frames.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithms/hull/convex_hull.h"
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/geometry/signed_permutation.h"
 #include "harness/grade/failures/case_numbers.h"
 

@@ -1,17 +1,41 @@
-// Shrinks a failing case in a child process and describes what is wrong with it.
+// Shrinks a failing case in a child process, describes what is wrong with it, and writes and
+// removes files of cases.
 #include "harness/grade/failures/shrunk_failure.h"
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "harness/base/clock.h"
 #include "harness/grade/failures/shrink.h"
 #include "harness/grade/wrong.h"
 #include "harness/process/isolate.h"
-#include "harness/process/queries/solve_case.h"
+#include "harness/process/solve_case.h"
 
 namespace touchstone::grade {
+
+std::filesystem::path CaseFiles::add(const std::string& name, const std::string& line) {
+  std::unique_ptr<files::OutputFile>& file = files_[name];
+  if (!file) {
+    std::filesystem::path path = own_.free_stem(failures_folder, name);
+    path += ".jsonl";
+    own_.note({path});
+    file = std::make_unique<files::OutputFile>(path);
+  }
+  file->write(line + "\n");
+  return file->path();
+}
+
+void CaseFiles::close() {
+  for (const auto& [name, file] : files_) file->close();
+}
+
+void remove_case_files(const std::filesystem::path& results) {
+  record::OwnFiles(results).remove(
+      [](const std::string& name) { return name.starts_with(std::string(failures_folder) + "/"); });
+}
+
 namespace {
 
 constexpr int shrink_budget = 400;           // queries

@@ -1,5 +1,8 @@
-// Grades contact manifolds against exact distances and touching areas.
+// Grades contact manifolds against exact distances and touching areas, tabulates the grades, and
+// lists the limits that ours exceed.
 #include "harness/grade/manifold/manifold_grade.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
@@ -7,8 +10,8 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/grade/manifold/touching_area.h"
-#include "harness/grade/pair_size.h"
-#include "harness/process/queries/solve_case.h"
+#include "harness/grade/margins.h"
+#include "harness/process/solve_case.h"
 
 namespace touchstone::grade {
 namespace {
@@ -97,6 +100,106 @@ ManifoldGrade grade(const files::Case& c, const ManifoldTruth& truth, const Mani
   result.of_best_four = static_cast<double>(std::min<Real>(1, spanned / best));
   result.of_all = static_cast<double>(std::min<Real>(1, spanned / whole));
   return result;
+}
+
+namespace {
+
+// The limits of our algorithms, as parts of the size.
+struct Limits {
+  double off_body, depth_error;
+};
+constexpr Limits limits_of(Precision scalar) {
+  return scalar == Precision::float64 ? Limits{1e-13, 1e-8} : Limits{1e-4, 1e-4};
+}
+// Points of cylinders, cones and ellipsoids are found to the tolerance of EPA, a billionth, along their surface.
+double off_line_limit(const files::Case& c, Precision scalar) {
+  const auto is_curved = [](const Shape& shape) {
+    return shape.kind == ShapeKind::cylinder || shape.kind == ShapeKind::cone ||
+           shape.kind == ShapeKind::ellipsoid;
+  };
+  const double usual = limits_of(scalar).off_body;
+  return is_curved(c.shape_a) || is_curved(c.shape_b) ? std::max(usual, 1e-9) : usual;
+}
+constexpr double least_area = 0.9;  // as a part of the best four, in double
+
+const std::vector<std::string> header = {
+    "pairs", "algorithm",         "asked",  "missed",     "points", "off body", "depth error",
+    "apart", "area of best four", "(mean)", "area of all"};
+
+std::string length(double x) { return x == 0 ? "0" : fmt::format("{:.1e}", x); }
+
+}  // namespace
+
+void ManifoldTally::add(const std::string& family, const std::string& algorithm,
+                        const AlgorithmInfo& info, Precision scalar, const files::Case& c,
+                        const ManifoldTruth& truth, const Manifold& manifold) {
+  const Key key{family, algorithm};
+  auto at = std::ranges::find(rows_, key, [](const auto& row) { return row.first; });
+  if (at == rows_.end()) at = rows_.insert(rows_.end(), {key, Worst()});
+  Worst& worst = at->second;
+  const ManifoldGrade graded = grade(c, truth, manifold);
+  ++worst.asked;
+  worst.missed += graded.missed ? 1 : 0;
+  if (manifold.count > 0) {
+    worst.least_points = std::min(worst.least_points, manifold.count);
+    worst.most_points = std::max(worst.most_points, manifold.count);
+  }
+  worst.off_body = std::max(worst.off_body, graded.off_body);
+  worst.depth_error = std::max(worst.depth_error, graded.depth_error);
+  worst.apart = std::max(worst.apart, graded.apart);
+  if (graded.of_best_four) {
+    ++worst.with_area;
+    worst.of_best_four = std::min(worst.of_best_four, *graded.of_best_four);
+    worst.sum_of_best_four += *graded.of_best_four;
+    worst.of_all = std::min(worst.of_all, *graded.of_all);
+  }
+
+  if (info.origin != Origin::ours || manifold.status == Status::unsupported) return;
+  const Limits limits = limits_of(scalar);
+  const double rounding = coordinate_rounding(c, truth);
+  const auto wrong = [&](std::string_view what, double value) {
+    wrong_.push_back(fmt::format("{}, {} of case '{}': {} {}", info.name, to_string(scalar), c.id,
+                                 what, length(value)));
+  };
+  if (graded.missed && manifold.status == Status::ok)
+    wrong("no point of bodies as deep as", truth.depth);
+  if (graded.off_body > limits.off_body + rounding)
+    wrong("a point off its body by", graded.off_body);
+  if (graded.off_line > off_line_limit(c, scalar) + 2 * rounding) {
+    wrong("points apart by another depth by", graded.off_line);
+  }
+  if (manifold.status == Status::ok && graded.depth_error > limits.depth_error + rounding) {
+    wrong("a depth off by", graded.depth_error);
+  }
+  if (scalar == Precision::float64 && graded.of_best_four && *graded.of_best_four < least_area) {
+    wrong("of the area of the best four only", *graded.of_best_four);
+  }
+}
+
+std::vector<std::vector<std::string>> ManifoldTally::cells() const {
+  std::vector<std::vector<std::string>> all;
+  for (const auto& [key, worst] : rows_) {
+    const auto area = [&](double x) {
+      return worst.with_area > 0 ? fmt::format("{:.4f}", x) : std::string();
+    };
+    const std::string points = worst.most_points == 0 ? ""
+                               : worst.least_points == worst.most_points
+                                   ? fmt::format("{}", worst.most_points)
+                                   : fmt::format("{} to {}", worst.least_points, worst.most_points);
+    const double mean =
+        worst.sum_of_best_four / static_cast<double>(std::max<std::size_t>(1, worst.with_area));
+    all.push_back({key.family, key.algorithm, fmt::format("{}", worst.asked),
+                   fmt::format("{}", worst.missed), points, length(worst.off_body),
+                   length(worst.depth_error), length(worst.apart), area(worst.of_best_four),
+                   area(mean), area(worst.of_all)});
+  }
+  return all;
+}
+
+base::Table ManifoldTally::table() const {
+  base::Table table(header, 2);
+  for (std::vector<std::string>& row : cells()) table.add(std::move(row));
+  return table;
 }
 
 }  // namespace touchstone::grade

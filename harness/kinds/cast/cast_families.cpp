@@ -11,7 +11,6 @@
 #include "harness/families/grid_touches.h"
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
-#include "harness/families/turning_pairs.h"
 
 namespace touchstone::kinds {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "harness/families/moving_pairs.h"
-#include "harness/geometry/shapes/scaled_shape.h"
-#include "harness/process/queries/solve_cast.h"
+#include "harness/geometry/tessellation.h"
+#include "harness/process/solve_case.h"
 
 namespace touchstone::kinds {
 namespace {

@@ -18,8 +18,8 @@
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
 #include "harness/base/table.h"
+#include "harness/files/ccd_queries.h"
 #include "harness/files/csv.h"
-#include "harness/files/motion/ccd_queries.h"
 #include "harness/kinds/selection.h"
 #include "harness/process/isolate.h"
 

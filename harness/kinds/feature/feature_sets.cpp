@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/files/motion/ccd_queries.h"
+#include "harness/base/reproducible_math.h"
+#include "harness/files/ccd_queries.h"
 #include "harness/kinds/feature/feature_grade.h"
 #include "harness/kinds/feature/feature_kind.h"
 #include "harness/kinds/set_keys.h"

@@ -17,10 +17,10 @@
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
 #include "harness/files/text_file.h"
-#include "harness/grade/manifold/manifold_tally.h"
+#include "harness/grade/manifold/manifold_grade.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/questions.h"
-#include "harness/process/queries/solve_manifold.h"
+#include "harness/process/solve_case.h"
 
 namespace touchstone::kinds {
 namespace {

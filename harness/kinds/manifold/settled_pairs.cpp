@@ -10,7 +10,7 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/random.h"
-#include "harness/base/rotation_between.h"
+#include "harness/base/reproducible_math.h"
 
 namespace touchstone::kinds {
 namespace {

@@ -13,7 +13,7 @@
 #include "harness/families/meshes.h"
 #include "harness/families/moving_pairs.h"
 #include "harness/families/triangle_pairs.h"
-#include "harness/geometry/shapes/compound.h"
+#include "harness/geometry/concave_bodies.h"
 #include "harness/kinds/mesh/mesh_kind.h"
 
 namespace touchstone::kinds {

@@ -12,7 +12,7 @@
 #include "algorithms/concave_phase.h"
 #include "algorithms/core/shape.h"
 #include "harness/base/random.h"
-#include "harness/files/concave/concave_cases.h"
+#include "harness/files/concave_cases.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/batch.h"
 #include "harness/kinds/questions.h"

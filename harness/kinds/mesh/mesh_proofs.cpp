@@ -8,7 +8,7 @@
 
 #include "algorithms/oracle/certificates/parts/parts_certificate_check.h"
 #include "algorithms/oracle/concave/exact_parts_proofs.h"
-#include "harness/files/proofs/parts_certificates.h"
+#include "harness/files/parts_certificates.h"
 #include "harness/kinds/proofs.h"
 
 namespace touchstone::kinds {

@@ -14,8 +14,8 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/base/file_text.h"
 #include "harness/base/hash.h"
+#include "harness/base/input_file.h"
 #include "harness/files/csv.h"
 #include "harness/kinds/pair/pair_cases.h"
 #include "harness/kinds/questions.h"

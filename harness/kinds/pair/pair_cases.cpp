@@ -12,7 +12,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/geometry/shapes/compound.h"
+#include "harness/geometry/concave_bodies.h"
 #include "harness/kinds/selection.h"
 #include "harness/scene/kinematics.h"
 

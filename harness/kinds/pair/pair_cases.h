@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "algorithms/core/outcome.h"
-#include "harness/files/concave/concave_cases.h"
+#include "harness/files/concave_cases.h"
 #include "harness/files/csv.h"
 #include "harness/kinds/questions.h"
 

@@ -17,7 +17,7 @@
 #include "harness/kinds/mesh/mesh_kind.h"
 #include "harness/kinds/pair/pair_cases.h"
 #include "harness/kinds/questions.h"
-#include "harness/process/queries/solve_case.h"
+#include "harness/process/solve_case.h"
 
 namespace touchstone::kinds {
 namespace {

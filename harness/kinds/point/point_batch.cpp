@@ -7,13 +7,13 @@
 #include <memory>
 #include <utility>
 
-#include "harness/families/tried_points.h"
+#include "harness/families/aimed_queries.h"
 #include "harness/files/text_file.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/point/point_grade.h"
 #include "harness/kinds/point/point_kind.h"
-#include "harness/scene/writing/scene_writer.h"
+#include "harness/scene/scene.h"
 
 namespace touchstone::kinds {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
-#include "harness/base/plain_math.h"
 #include "harness/base/random.h"
-#include "harness/geometry/shapes/compound.h"
+#include "harness/base/reproducible_math.h"
+#include "harness/geometry/concave_bodies.h"
 #include "harness/kinds/mesh_inputs.h"
 #include "harness/kinds/point/point_grade.h"
 #include "harness/kinds/point/point_kind.h"

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "algorithms/core/nearest_float.h"
-#include "harness/families/aimed_rays.h"
+#include "harness/families/aimed_queries.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh_cases.h"
 #include "harness/kinds/ray/ray_grade.h"
 #include "harness/kinds/ray/ray_kind.h"
-#include "harness/scene/writing/scene_writer.h"
+#include "harness/scene/scene.h"
 
 namespace touchstone::kinds {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
-#include "harness/base/plain_math.h"
 #include "harness/base/random.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/kinds/mesh_inputs.h"
 #include "harness/kinds/ray/ray_grade.h"
 #include "harness/kinds/ray/ray_kind.h"

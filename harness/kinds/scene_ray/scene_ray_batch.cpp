@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "harness/families/ray_scenes.h"
-#include "harness/geometry/shapes/scaled_shape.h"
+#include "harness/geometry/tessellation.h"
 #include "harness/kinds/exact_forms.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/ray/ray_kind.h"
 #include "harness/kinds/scene_ray/scene_ray_questions.h"
-#include "harness/scene/writing/scene_writer.h"
+#include "harness/scene/scene.h"
 
 namespace touchstone::kinds {
 namespace {

@@ -13,7 +13,7 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/files/csv.h"
-#include "harness/files/proofs/scene_ray_certificates.h"
+#include "harness/files/ray_certificates.h"
 #include "harness/kinds/questions.h"
 #include "harness/kinds/ray/ray_kind.h"
 #include "harness/scene/player.h"

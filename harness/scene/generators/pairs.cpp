@@ -1,4 +1,6 @@
 // Generator `pairs`: pairs of bodies at exact distances, for benchmarks of narrow phases.
+#include "harness/scene/generators/pairs.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,10 +9,116 @@
 #include "algorithms/core/bounds.h"
 #include "harness/base/reproducible_math.h"
 #include "harness/scene/generators/generators.h"
-#include "harness/scene/generators/settle.h"
-#include "harness/scene/generators/sway.h"
+#include "harness/scene/scene.h"
 
 namespace touchstone::scene {
+namespace {
+
+// Small-amplitude motion of pairs, which keeps them about as far apart as they were placed. Used by
+// the generator `pairs`.
+
+struct Sway {
+  double share = 0;      // change of the distance relative to the gap, about; 0: nothing moves
+  int frames = 1;        // frames of the scene
+  double time_step = 0;  // seconds
+};
+
+Vec3d cross(const Vec3d& u, const Vec3d& v) {
+  return {u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
+          u.x() * v.y() - u.y() * v.x()};
+}
+
+// Moves a body back from the middle frame to the first.
+void start(double seconds, Body& body) {
+  body.moving = true;
+  body.pose.translation -= seconds * body.velocity;
+  body.pose.rotation =
+      base::product(base::rotation_over(body.angular_velocity, -seconds), body.pose.rotation);
+}
+
+// Reads `sway`. Throws if the scene also sets a motion.
+Sway read_sway(const GeneratorInput& input) {
+  files::TomlTable& table = input.table;
+  Sway sway;
+  sway.share = table.number("sway", {.low = 0, .high = 1}, 0.0);
+  if (sway.share > 0 && table.contains("motion")) {
+    table.fail("motion", "given beside sway, which says how bodies move; expected one of the two");
+  }
+  sway.frames = input.frames;
+  sway.time_step = table.number("time_step", {.low = 1e-9, .high = 1e6}, Motion{}.time_step);
+  return sway;
+}
+
+// Sets the pair in motion so that it passes through the given poses in the middle frame. `normal`
+// (unit length) is the direction from a to b there, `gap` the signed distance (metres), and `reach`
+// the extent of each body from its origin.
+//
+// Both bodies rotate together about the origin of a; b also slides and rotates about the normal.
+// These motions change the distance only to second order. Finally b tilts a little. Each angle, and
+// the length of the slide, is small enough to change the distance at the first and the last frame
+// by at most about a quarter of share * |gap|, if the nearest features stay the same. If one slides
+// off the other's edge, the bodies are further apart.
+void set_swaying(const Sway& sway, const Vec3d& normal, double gap, double reach,
+                 base::Random& random, Body& a, Body& b) {
+  const int middle = sway.frames / 2;
+  if (!(sway.share > 0) || middle == 0) return;
+  const double seconds = middle * sway.time_step;
+  const double change = sway.share * std::abs(gap);
+  const Vec3d between = b.pose.translation - a.pose.translation;
+  const double arm = base::length(between) + reach;
+  const double angle = std::sqrt(change / (2 * arm));  // arm * angle^2 / 2 is a quarter
+  const Vec3d turn = (angle / seconds) * random.in_ball();
+  Vec3d slide = (angle * arm / 2 / seconds) * random.in_ball();
+  slide -= base::inner(slide, normal) * normal;
+  const double spin = (angle / seconds) * (2 * random.unit() - 1);
+  const Vec3d tilt = (change / (4 * arm) / seconds) * random.in_ball();
+  a.angular_velocity = turn;
+  b.angular_velocity = turn + spin * normal + tilt;
+  b.velocity = cross(turn, between) + slide;
+  start(seconds, a);
+  start(seconds, b);
+}
+
+// Moves a body until the exact signed distance has a given value, along the shortest way (settle)
+// or along a given line (meet). Used by the generator pairs and by bench.
+
+// The precision with which doubles of the size of the translations can place a body.
+double tolerance_of(double distance) { return std::max(1e-6 * std::abs(distance), 4e-16); }
+
+}  // namespace
+
+bool settle(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a,
+            const oracle::Solid& b, Pose& at_b, double distance) {
+  constexpr int most_steps = 30;
+  const double tolerance = tolerance_of(distance);
+  for (int step = 0; step < most_steps; ++step) {
+    const oracle::Measure measure = oracle.measure({a, at_a}, {b, at_b});
+    const double off = distance - measure.middle();
+    if (std::abs(off) <= tolerance) return true;
+    if (measure.normal.isZero()) return false;
+    at_b.translation += off * measure.normal.normalized();
+  }
+  return false;
+}
+
+// Takes Newton's steps: along a line the signed distance is convex, so no step goes too far.
+bool meet(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a, const oracle::Solid& b,
+          Pose& at_b, const Vec3d& way, double distance) {
+  constexpr int most_steps = 60;
+  const double tolerance = tolerance_of(distance);
+  for (int step = 0; step < most_steps; ++step) {
+    const oracle::Measure measure = oracle.measure({a, at_a}, {b, at_b});
+    const double off = measure.middle() - distance;
+    if (std::abs(off) <= tolerance) return true;
+    if (measure.normal.isZero()) return false;
+    const Vec3d normal = measure.normal.normalized();
+    const double slope = -(normal.x() * way.x() + normal.y() * way.y() + normal.z() * way.z());
+    if (!(slope > 1e-3)) return false;  // beyond the nearest place, or almost
+    at_b.translation += off / slope * way;
+  }
+  return false;
+}
+
 namespace {
 
 // Returns a point of the shape that is farthest along n (unit, local).
@@ -90,7 +198,7 @@ std::vector<double> read_gaps(GeneratorInput& input) {
 // `meeting`: body 2 i + 1 moves straight towards the other from a random direction until the exact
 // distance or depth is the gap. The nearest features are those of bodies that meet by chance.
 //
-// Pairs stand on a grid, clear of each other. With `sway` they move (sway.h).
+// Pairs stand on a grid, clear of each other. With `sway` they move (set_swaying).
 Generated make_pairs(GeneratorInput& input) {
   if (input.count % 2 != 0) {
     throw base::InputError(

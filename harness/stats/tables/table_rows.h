@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "harness/stats/key_columns.h"
+#include "harness/stats/samples.h"
 #include "harness/stats/tables/tables.h"
 
 namespace touchstone::stats {

@@ -11,7 +11,6 @@
 #include <type_traits>
 
 #include "harness/base/table.h"
-#include "harness/files/folders/folder_name.h"
 #include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
 #include "harness/record/machine.h"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "harness/base/clock.h"
-#include "harness/measure/phases/narrow_choice.h"
+#include "harness/measure/narrow_choice.h"
 #include "harness/trade/pipeline/stand_ins.h"
 
 namespace touchstone::trade {

@@ -12,7 +12,7 @@
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
-#include "harness/geometry/shapes/compound.h"
+#include "harness/geometry/concave_bodies.h"
 
 namespace touchstone::trade {
 namespace {

@@ -13,9 +13,9 @@
 #include "algorithms/core/bounds.h"
 #include "algorithms/registry.h"
 #include "harness/base/clock.h"
-#include "harness/grade/outcome_check.h"
+#include "harness/grade/answer_check.h"
 #include "harness/grade/pair_groups.h"
-#include "harness/measure/phases/overlapping_pairs.h"
+#include "harness/measure/block_input.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::trade {

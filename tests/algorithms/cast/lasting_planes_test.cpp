@@ -6,7 +6,7 @@
 #include "algorithms/kernels/motion/advancement/box_planes.h"
 #include "algorithms/kernels/motion/advancement/parting_step.h"
 #include "algorithms/kernels/motion/advancement/round_planes.h"
-#include "harness/families/turning_pairs.h"
+#include "harness/families/moving_pairs.h"
 #include "tests/algorithms/cast/turning_bodies.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/shapes.h"

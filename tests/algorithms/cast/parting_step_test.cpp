@@ -3,8 +3,8 @@
 
 #include "algorithms/kernels/motion/advancement/parting_step.h"
 #include "algorithms/kernels/motion/advancement/turning_normal.h"
-#include "harness/base/rotation_between.h"
-#include "harness/families/turning_pairs.h"
+#include "harness/base/reproducible_math.h"
+#include "harness/families/moving_pairs.h"
 #include "tests/algorithms/cast/turning_bodies.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/shapes.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "harness/families/turning_pairs.h"
+#include "harness/families/moving_pairs.h"
 #include "tests/algorithms/cast/linear_cast.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/shapes.h"

@@ -9,9 +9,8 @@
 
 #include "algorithms/oracle/certificates/parts/mesh_certificate_check.h"
 #include "algorithms/oracle/rays/exact_mesh_proofs.h"
-#include "harness/families/aimed_rays.h"
+#include "harness/families/aimed_queries.h"
 #include "harness/families/meshes.h"
-#include "harness/families/tried_points.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 

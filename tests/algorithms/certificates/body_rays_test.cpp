@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/families/aimed_rays.h"
+#include "harness/families/aimed_queries.h"
 #include "tests/algorithms/certificates/scene_rays.h"
 
 namespace touchstone {

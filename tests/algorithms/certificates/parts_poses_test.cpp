@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algorithms/core/mesh/common_frame.h"
-#include "harness/geometry/shapes/compound.h"
+#include "harness/geometry/concave_bodies.h"
 #include "tests/algorithms/certificates/proven_pairs.h"
 
 namespace touchstone {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/base/rotation_between.h"
+#include "harness/base/reproducible_math.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 #include "tests/algorithms/narrow_phase/brute_force.h"
 #include "tests/algorithms/one_in.h"

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "algorithms/registry.h"
-#include "harness/base/rotation_between.h"
+#include "harness/base/reproducible_math.h"
 #include "tests/algorithms/narrow_phase/polytope_reference.h"
 #include "tests/algorithms/one_in.h"
 

@@ -13,8 +13,8 @@
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
 #include "harness/base/random.h"
-#include "harness/grade/encoding.h"
-#include "harness/process/queries/guarded_solve.h"
+#include "harness/grade/true_case.h"
+#include "harness/process/limited_query.h"
 
 namespace touchstone {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/base/rotation_between.h"
+#include "harness/base/reproducible_math.h"
 
 namespace touchstone::narrow_pairs {
 

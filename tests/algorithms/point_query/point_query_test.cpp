@@ -12,8 +12,8 @@
 
 #include "algorithms/core/isa.h"
 #include "algorithms/registry.h"
+#include "harness/families/aimed_queries.h"
 #include "harness/families/meshes.h"
-#include "harness/families/tried_points.h"
 #include "tests/algorithms/one_in.h"
 
 namespace touchstone {

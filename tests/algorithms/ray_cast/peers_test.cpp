@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/families/aimed_rays.h"
+#include "harness/families/aimed_queries.h"
 #include "harness/families/meshes.h"
 #include "tests/algorithms/one_in.h"
 

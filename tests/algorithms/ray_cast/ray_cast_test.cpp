@@ -11,7 +11,7 @@
 #include "algorithms/core/isa.h"
 #include "algorithms/core/nearest_float.h"
 #include "algorithms/registry.h"
-#include "harness/families/aimed_rays.h"
+#include "harness/families/aimed_queries.h"
 #include "harness/families/meshes.h"
 #include "tests/algorithms/one_in.h"
 

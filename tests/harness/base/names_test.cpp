@@ -1,11 +1,10 @@
 // Tests of names of folders and files, of text for terminals and shells, and of the hash of bytes.
 #include <gtest/gtest.h>
 
-#include "harness/base/byte_hash.h"
-#include "harness/base/file_name.h"
-#include "harness/base/file_text.h"
+#include "harness/base/hash.h"
+#include "harness/base/input_file.h"
+#include "harness/base/names.h"
 #include "harness/base/nearest_name.h"
-#include "harness/base/shell_word.h"
 
 namespace touchstone {
 namespace {

@@ -1,5 +1,5 @@
 // Rotations between directions, those that are nearly opposite among them.
-#include "harness/base/rotation_between.h"
+#include "harness/base/reproducible_math.h"
 
 #include <gtest/gtest.h>
 

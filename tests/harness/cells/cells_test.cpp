@@ -8,12 +8,12 @@
 #include <string>
 
 #include "harness/base/error.h"
-#include "harness/cells/motion/motion_front.h"
+#include "harness/cells/motion.h"
 #include "harness/cells/read_cells.h"
 #include "harness/record/raw_row.h"
-#include "harness/stats/cells/cell_results.h"
-#include "harness/stats/cells/cell_rows.h"
-#include "harness/stats/cells/cell_tables.h"
+#include "harness/stats/cell_results.h"
+#include "harness/stats/cell_rows.h"
+#include "harness/stats/cell_tables.h"
 #include "tests/harness/columns_page.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"

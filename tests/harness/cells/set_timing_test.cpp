@@ -16,9 +16,9 @@
 #include "harness/cells/set_timing.h"
 #include "harness/files/text_file.h"
 #include "harness/record/raw_row.h"
-#include "harness/stats/cells/cell_results.h"
-#include "harness/stats/cells/cell_rows.h"
-#include "harness/stats/cells/cell_tables.h"
+#include "harness/stats/cell_results.h"
+#include "harness/stats/cell_rows.h"
+#include "harness/stats/cell_tables.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {

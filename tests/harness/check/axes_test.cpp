@@ -9,11 +9,11 @@
 #include <map>
 #include <set>
 
-#include "harness/base/plain_math.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/check/axes/axis_draws.h"
 #include "harness/check/check_job.h"
-#include "harness/grade/pair_size.h"
-#include "harness/process/queries/solve_case.h"
+#include "harness/grade/margins.h"
+#include "harness/process/solve_case.h"
 
 namespace touchstone {
 namespace {

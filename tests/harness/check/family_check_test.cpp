@@ -9,8 +9,8 @@
 
 #include "harness/check/check_run.h"
 #include "harness/check/select_cases.h"
-#include "harness/files/concave/concave_cases.h"
-#include "harness/files/motion/ccd_queries.h"
+#include "harness/files/ccd_queries.h"
+#include "harness/files/concave_cases.h"
 #include "harness/geometry/mesh.h"
 #include "harness/kinds/kind.h"
 #include "harness/scene/scene.h"

@@ -7,7 +7,7 @@
 
 #include "algorithms/core/executor/executor.h"
 #include "harness/check/check_run.h"
-#include "harness/grade/pair_check.h"
+#include "harness/grade/answer_check.h"
 #include "tests/harness/check/planted.h"
 #include "tests/harness/temporary_folder.h"
 

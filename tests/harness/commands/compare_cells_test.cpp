@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "harness/record/raw_row.h"
-#include "harness/stats/cells/cell_rows.h"
+#include "harness/stats/cell_rows.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
 

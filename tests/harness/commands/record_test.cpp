@@ -5,7 +5,6 @@
 #include "harness/base/error.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
-#include "harness/scene/aabbs.h"
 #include "harness/scene/box_frames.h"
 #include "harness/scene/player.h"
 #include "tests/harness/temporary_folder.h"

@@ -1,5 +1,5 @@
 // Cases with meshes and compounds.
-#include "harness/files/concave/concave_cases.h"
+#include "harness/files/concave_cases.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

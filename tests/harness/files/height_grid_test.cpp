@@ -1,5 +1,5 @@
 // Grids of heights from images and texts.
-#include "harness/files/heights/height_grid.h"
+#include "harness/files/height_grid.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

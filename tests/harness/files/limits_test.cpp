@@ -6,11 +6,10 @@
 
 #include "harness/base/input_file.h"
 #include "harness/files/cases.h"
+#include "harness/files/ccd_queries.h"
+#include "harness/files/certificates.h"
 #include "harness/files/csv.h"
-#include "harness/files/line_reader.h"
-#include "harness/files/motion/ccd_queries.h"
-#include "harness/files/proofs/cast_certificates.h"
-#include "harness/files/zstd_writer.h"
+#include "harness/files/packed_files.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // Certificates of rays and points at meshes, as files.
-#include "harness/files/proofs/mesh_certificates.h"
+#include "harness/files/ray_certificates.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Certificates of bodies of many parts, as files.
-#include "harness/files/proofs/parts_certificates.h"
+#include "harness/files/parts_certificates.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Tests of files that zstd packs: their writer, and CSV that is read from them.
-#include "harness/files/zstd_writer.h"
+#include "harness/files/packed_files.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,9 +11,7 @@
 #include <string>
 
 #include "harness/base/error.h"
-#include "harness/files/byte_reader.h"
 #include "harness/files/csv.h"
-#include "harness/files/row_file.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // The meshes of simple bodies: closed, oriented, and of the volume of what they stand for.
-#include "harness/geometry/shapes/mesh_shapes.h"
+#include "harness/geometry/mesh_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 
 #include "algorithms/core/nearest_float.h"
 #include "harness/base/error.h"
-#include "harness/geometry/shapes/named_mesh.h"
 
 namespace touchstone::geometry {
 namespace {

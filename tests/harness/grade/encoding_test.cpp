@@ -1,5 +1,5 @@
 // Tests the exact problems of all encodings, and that entries state the right one.
-#include "harness/grade/encoding.h"
+#include "harness/grade/true_case.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
 #include "harness/base/random.h"
-#include "harness/process/queries/solve_case.h"
+#include "harness/process/solve_case.h"
 #include "tests/harness/check/pairs.h"
 
 namespace touchstone {

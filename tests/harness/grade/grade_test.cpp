@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "harness/grade/encoding.h"
+#include "harness/grade/true_case.h"
 #include "tests/harness/check/pairs.h"
 
 namespace touchstone {

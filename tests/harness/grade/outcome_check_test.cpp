@@ -1,5 +1,5 @@
 // Tests the comparison of outcomes with exact answers, as a campaign does it.
-#include "harness/grade/outcome_check.h"
+#include "harness/grade/answer_check.h"
 
 #include <gtest/gtest.h>
 

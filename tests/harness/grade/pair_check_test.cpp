@@ -1,5 +1,5 @@
 // Tests the comparison of found pairs with true ones.
-#include "harness/grade/pair_check.h"
+#include "harness/grade/answer_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of the order of contestants.
-#include "harness/measure/latin_square.h"
+#include "harness/measure/measure_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests that lines of items that end are kept, whatever others do.
-#include "harness/process/isolated_lines.h"
+#include "harness/process/isolate.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -10,7 +10,7 @@
 #include <csignal>
 #include <functional>
 
-#include "harness/record/own_files.h"
+#include "harness/record/folder_files.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/packed.h"
 #include "tests/harness/temporary_folder.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/scene/aabbs.h"
+#include "harness/scene/box_frames.h"
 #include "harness/scene/player.h"
 #include "tests/harness/report/unpacked.h"
 #include "tests/harness/temporary_folder.h"

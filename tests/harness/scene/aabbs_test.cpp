@@ -1,4 +1,4 @@
-#include "harness/scene/aabbs.h"
+#include "harness/scene/box_frames.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

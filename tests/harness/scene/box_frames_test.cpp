@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "harness/base/error.h"
-#include "harness/scene/aabbs.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "harness/base/error.h"
-#include "harness/geometry/shapes/compound.h"
-#include "harness/geometry/shapes/mesh_shapes.h"
+#include "harness/geometry/concave_bodies.h"
+#include "harness/geometry/mesh_shapes.h"
 #include "harness/scene/player.h"
 #include "tests/harness/scene/scene_text.h"
 #include "tests/harness/temporary_folder.h"

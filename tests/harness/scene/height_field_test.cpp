@@ -5,7 +5,6 @@
 #include <string>
 
 #include "harness/scene/scene.h"
-#include "harness/scene/writing/scene_writer.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -10,7 +10,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/reproducible_math.h"
-#include "harness/scene/motion_steps.h"
+#include "harness/scene/kinematics.h"
 #include "tests/harness/temporary_folder.h"
 #include "tests/project_folder.h"
 

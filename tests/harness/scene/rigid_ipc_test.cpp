@@ -11,7 +11,7 @@
 #include <string>
 
 #include "harness/base/error.h"
-#include "harness/geometry/mesh_mass.h"
+#include "harness/geometry/mesh_solid.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "harness/base/error.h"
-#include "harness/scene/aabbs.h"
+#include "harness/scene/box_frames.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 #include "tests/harness/input_fault.h"

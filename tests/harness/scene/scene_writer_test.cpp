@@ -1,5 +1,5 @@
 // Scenes that are written and read.
-#include "harness/scene/writing/scene_writer.h"
+#include "harness/scene/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "harness/families/ray_scenes.h"
-#include "harness/geometry/shapes/compound.h"
-#include "harness/scene/scene.h"
+#include "harness/geometry/concave_bodies.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {

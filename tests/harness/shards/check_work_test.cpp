@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "harness/check/check_file.h"
-#include "harness/record/facts.h"
+#include "harness/record/machine.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/shards/planned.h"
 #include "tests/harness/stopped_folder.h"

@@ -1,5 +1,5 @@
 // Tests that units are cut into shards of nearly the least greatest cost.
-#include "harness/shards/cut.h"
+#include "harness/shards/shard_plan.h"
 
 #include <gtest/gtest.h>
 

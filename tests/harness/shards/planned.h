@@ -8,7 +8,6 @@
 #include "harness/shards/merge.h"
 #include "harness/shards/shard_folder.h"
 #include "harness/shards/shard_plan.h"
-#include "harness/shards/shard_run.h"
 #include "harness/shards/status.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -41,7 +41,7 @@ def mixed(x):
 
 
 def hash_of(text):
-    """The hash of rows in progress.csv (harness/base/byte_hash.h)."""
+    """The hash of rows in progress.csv (harness/base/hash.h)."""
     content = text.encode()
     state = 0
     for at in range(0, len(content), 8):

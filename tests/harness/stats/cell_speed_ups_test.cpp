@@ -1,5 +1,5 @@
 // Tests what several threads bring, of cells that differ in them alone.
-#include "harness/stats/cells/cell_speed_ups.h"
+#include "harness/stats/cell_tables.h"
 
 #include <gtest/gtest.h>
 

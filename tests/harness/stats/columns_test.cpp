@@ -1,5 +1,5 @@
 // Tests that the columns of the tables' files are documented.
-#include "harness/stats/published_check.h"
+#include "harness/stats/table_check.h"
 #include "harness/stats/tables/table_rows.h"
 #include "tests/harness/columns_page.h"
 

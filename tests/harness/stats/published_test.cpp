@@ -6,7 +6,7 @@
 
 #include "harness/campaign/campaign.h"
 #include "harness/campaign/runner.h"
-#include "harness/stats/published_check.h"
+#include "harness/stats/table_check.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
 #include "tests/project_folder.h"

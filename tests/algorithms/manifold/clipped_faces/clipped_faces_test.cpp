@@ -10,7 +10,7 @@
 
 #include "algorithms/hull/convex_hull.h"
 #include "algorithms/registry.h"
-#include "harness/base/rotation_between.h"
+#include "harness/base/reproducible_math.h"
 #include "tests/algorithms/random.h"
 #include "tests/algorithms/shapes.h"
 

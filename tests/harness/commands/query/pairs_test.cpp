@@ -13,7 +13,6 @@
 #include "algorithms/registry.h"
 #include "harness/base/hash.h"
 #include "harness/kinds/box/box_kind.h"
-#include "harness/scene/aabbs.h"
 #include "harness/scene/box_frames.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"

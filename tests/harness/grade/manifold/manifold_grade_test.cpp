@@ -7,10 +7,9 @@
 
 #include "algorithms/registry.h"
 #include "harness/check/regimes/regimes.h"
-#include "harness/grade/manifold/manifold_tally.h"
 #include "harness/grade/manifold/touching_area.h"
 #include "harness/kinds/manifold/manifold_kind.h"
-#include "harness/process/queries/solve_manifold.h"
+#include "harness/process/solve_case.h"
 #include "tests/algorithms/shapes.h"
 
 namespace touchstone {

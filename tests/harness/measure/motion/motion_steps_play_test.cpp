@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/measure/motion/continuous_steps.h"
-#include "harness/measure/motion/discrete_steps.h"
+#include "harness/measure/motion.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {

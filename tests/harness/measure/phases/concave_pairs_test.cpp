@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "harness/measure/phases/narrow_sampler.h"
+#include "harness/measure/narrow_sampler.h"
 #include "tests/harness/scene/scene_text.h"
 
 namespace touchstone::measure {

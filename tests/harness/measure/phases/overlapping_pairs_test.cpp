@@ -1,5 +1,5 @@
 // Tests of the reference pairs of broad phases: two ways to find them, and the plain definition.
-#include "harness/measure/phases/overlapping_pairs.h"
+#include "harness/measure/block_input.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests that a guarded solve loses only the pairs that fail.
-#include "harness/process/queries/guarded_solve.h"
+#include "harness/process/limited_query.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

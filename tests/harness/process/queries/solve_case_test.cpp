@@ -1,5 +1,5 @@
 // Tests that a case is answered in its own order of bodies, with only what is asked.
-#include "harness/process/queries/solve_case.h"
+#include "harness/process/solve_case.h"
 
 #include <gtest/gtest.h>
 
