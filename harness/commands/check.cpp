@@ -97,7 +97,7 @@ std::string draw_maps(const std::filesystem::path& out, const std::string& page)
   } else if (maps == Drawing::failed) {
     fmt::print("The maps could not be drawn; {} says why\n", log.string());
   }
-  if (maps != Drawing::drawn) return "";
+  if (maps != Drawing::drawn || page.empty()) return "";
   const std::filesystem::path folder = std::filesystem::absolute(page).parent_path();
   return std::filesystem::absolute(out / "figures").lexically_relative(folder).string();
 }

@@ -138,13 +138,13 @@ INSTANTIATE_TEST_SUITE_P(
 // The contract asks for witness points. Some libraries have none.
 TEST_F(CheckRun, ADistanceOfOursNeedsWitnessPoints) {
   const NarrowPhaseEntry peer = planted<Harm::no_points>("bad", Origin::peer);
-  EXPECT_THAT(check::run_check(request_for({&peer}))->report.ours_wrong(), IsEmpty());
+  EXPECT_THAT(check::run_check(request_for({&peer})).ours_wrong(), IsEmpty());
   const NarrowPhaseEntry entry = planted<Harm::no_points>("bad", Origin::ours);
   check::CheckRequest request = request_for({&entry});
   request.out = folder.path() / "ours";
   const auto result = check::run_check(request);
-  EXPECT_EQ(count(*result).beyond, 2);
-  EXPECT_THAT(result->report.ours_wrong(), Contains(HasSubstr("normal or witness points")));
+  EXPECT_EQ(count(result).beyond, 2);
+  EXPECT_THAT(result.ours_wrong(), Contains(HasSubstr("normal or witness points")));
 }
 
 TEST_F(CheckRun, AHangIsARow) {

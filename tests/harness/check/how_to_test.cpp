@@ -63,8 +63,8 @@ TEST(HowTo, TheNarrowPhaseIsRight) {
   request.cases = 40;
   request.out = folder.path() / "out";
   const auto result = check::run_check(request);
-  EXPECT_EQ(result->tally.answers().begin()->second.answers, 40 * 4);
-  EXPECT_THAT(result->report.ours_wrong(), testing::IsEmpty());
+  EXPECT_EQ(result.tally.answers().begin()->second.answers, 40 * 4);
+  EXPECT_THAT(result.ours_wrong(), testing::IsEmpty());
 }
 
 }  // namespace
