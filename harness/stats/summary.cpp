@@ -167,14 +167,20 @@ std::vector<Duel> duels_of(const Results& results, const Tables& tables, Doubts&
   for (const SampleSet& set : results.sets) {
     for (const std::int64_t batch : batches_of(set)) {
       const auto is_timed = [&](const Contestant& contestant) {
-        return contestant.is_ours() && contestant.batch == batch && !contestant.samples.empty();
+        return contestant.batch == batch && !contestant.samples.empty();
       };
       if (std::ranges::none_of(set.contestants, is_timed)) continue;
       ++doubts.inputs;
-      if (set.suspect)
+      if (set.suspect) {
         doubts.suspect.push_back(
             set.key.scene + " " +
             (set.key.narrow() ? set.key.task + " " + set.key.pair_kind : "boxes"));
+      }
+      if (std::ranges::none_of(set.contestants, [&](const Contestant& contestant) {
+            return contestant.is_ours() && is_timed(contestant);
+          })) {
+        continue;
+      }
       Duel& duel = duels.emplace_back();
       duel.key = &set.key;
       duel.batch = batch;
