@@ -113,7 +113,8 @@ TEST_F(Output, SignalsEndCasesWhereNothingIsLost) {
       "check --narrow gjk --count 100000000", "check --axes --narrow gjk --cases 100"};
   for (const std::string& work : works) {
     for (const int signal : {SIGINT, SIGTERM}) {
-      const std::string name = "out-" + work.substr(0, 4) + std::to_string(signal);
+      const std::string name =
+          "out-" + std::to_string(&work - works.data()) + "-" + std::to_string(signal);
       const std::string command = work + " --threads 1 --out " + path(name);
       const pid_t child = fork();
       if (child == 0) {

@@ -97,7 +97,7 @@ TEST_F(CampaignShards, HaveTheRowsOfOneRun) {
     EXPECT_TRUE(std::filesystem::exists(found[i].reproduction)) << found[i].reproduction;
   }
   EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("sweep-one-axis"));
-  EXPECT_THAT(result.merged.text, HasSubstr(out().string() + "/raw.csv"));
+  EXPECT_THAT(result.merged.text, HasSubstr(out().string() + "/tables.md"));
 }
 
 TEST_F(CampaignShards, BlocksThatDifferInThreadsAreInOneShard) {
