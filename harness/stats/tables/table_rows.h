@@ -63,10 +63,11 @@ void columns(Row& row, Visit visit, double band) {
   visit("algorithm", row.label, "The algorithm's label.");
   visit("baseline", row.baseline, "The algorithm that its time is compared with.");
   visit("canary", row.canary, "1 for the baseline against its twin; its true ratio is 1.");
-  ratio_columns(row,
-                "Time over the baseline's: the median of paired log ratios over the squares. Without "
-                "an interval it decides nothing.",
-                visit);
+  ratio_columns(
+      row,
+      "Time over the baseline's: the median of paired log ratios over the squares. Without "
+      "an interval it decides nothing.",
+      visit);
   visit("band_low", record::derived([&, band] { return row.ratio.low / band; }),
         "Lower end of the band in which `reproduce` wants the interval to lie.");
   visit("band_high", record::derived([&, band] { return row.ratio.high * band; }),
