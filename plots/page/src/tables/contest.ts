@@ -12,16 +12,20 @@ export interface Fault {
   queries: number; // NaN if they are not counted
 }
 
-// One algorithm on one input. Its time is over that of the fastest that is right.
-export interface Entry {
+// One algorithm on one input, and what is wrong with its answers.
+interface Graded {
   algorithm: string;
   origin: string;
+  fault: Fault | null;
+}
+
+// One that was timed. Its time is over that of the fastest that is right.
+export interface Entry extends Graded {
   scalar: string; // double, float, or empty
   seconds: number;
   relative: number;
   low: number;
   high: number;
-  fault: Fault | null;
   row: Row;
 }
 
@@ -44,6 +48,7 @@ export interface Input {
   kind: string;
   threads: string;
   entries: Entry[];
+  graded: Graded[]; // the entries, and those that have no time
   lead: Lead;
   ours: string; // the fastest that is right, or empty
   library: string;
@@ -156,6 +161,21 @@ function entries_of(
   return usable.sort((a, b) => a.relative - b.relative);
 }
 
+// The grades of a set: also of algorithms whose samples were all disturbed, which have no time.
+function graded_of(
+  times: Row[],
+  graded: Row[],
+  agreement: Map<string, Row>,
+  approximate: string[],
+): Graded[] {
+  const rows = new Map([...graded, ...times].map((row) => [label_key(row), row]));
+  return [...rows].map(([label, row]) => ({
+    algorithm: row.text("algorithm"),
+    origin: row.text("origin"),
+    fault: fault_of(row, agreement.get(label), approximate),
+  }));
+}
+
 // Says who leads, from a row of a table of the best.
 function lead_of(
   best: Row | undefined,
@@ -212,6 +232,10 @@ export function inputs_of(folder: Folder, approximate: string[] = []): Input[] {
   const winners = new Map(
     folder.rows("winners.csv").map((row) => [key_of(row, row.text("batch")), row]),
   );
+  const by_set = grouped(
+    [...agreement.values()],
+    (row) => key_of(row, batch_of(row.text("algorithm"))),
+  );
   const groups = grouped(times, (row) => key_of(row, batch_of(row.text("algorithm"))));
   const inputs = [...groups].map(([key, rows]): Input => {
     const row = rows[0]!;
@@ -235,6 +259,7 @@ export function inputs_of(folder: Folder, approximate: string[] = []): Input[] {
       kind: cells ? row.text("cell") : [row.text("pair_kind"), variant_of(row)].filter(Boolean).join(", "),
       threads: row.text("threads"),
       entries,
+      graded: graded_of(rows, by_set.get(key) ?? [], agreement, approximate),
       lead,
       ours: best?.text("ours") ?? "",
       library: best?.text(library) ?? "",
@@ -346,13 +371,13 @@ export function standings(entries: Entry[]): Standing[] {
 
 // Who is wrong, libraries first.
 export function faults_text(inputs: Input[]): string[] {
-  const entries = inputs.flatMap(({ entries }) => entries);
+  const entries = inputs.flatMap(({ graded }) => graded);
   const most_names = 3;
   const told = (title: string, belongs: (origin: string) => boolean): string => {
     const own = entries.filter(({ origin }) => belongs(origin));
     const names = (kind: Fault["kind"]): string => {
       const faulty = own.filter(({ fault }) => fault?.kind === kind);
-      const name = ({ algorithm }: Entry): string => algorithm.replace(/ (double|float)\b.*$/, "");
+      const name = ({ algorithm }: Graded): string => algorithm.replace(/ (double|float)\b.*$/, "");
       const each = [...grouped(faulty, name)].map(([algorithm, of]) => {
         const wrong = of.reduce((sum, { fault }) => sum + fault!.wrong, 0);
         const queries = of.reduce((sum, { fault }) => sum + fault!.queries, 0);
