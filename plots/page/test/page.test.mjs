@@ -158,7 +158,7 @@ test("cells have a race, crosses beside who was wrong, and samples", async () =>
   await page.close();
 });
 
-// Two scenes and two questions. The library is equal to ours on cubes, and wrong on hulls.
+// Two scenes and two questions. The library is equal to ours on cubes, and wrong on hulls. Another has no quiet sample.
 const raced = () => {
   const header = "scene,bodies,threads,task,pair_kind,";
   const sets = ["grid,100,1,,,", "grid,100,2,,,", "pile,9,1,distance,cube,", "pile,9,1,distance,hull,"];
@@ -169,7 +169,7 @@ const raced = () => {
   ]);
   return folder_of("raced", {
     "times.csv": `${header}algorithm,origin,unit,seconds,seconds_low,seconds_high,wrong,samples,noisy\n${times.join("")}`,
-    "agreement.csv": `${header}algorithm,origin,queries,wrong,worst_error,depth_bound\n${sets[3]}theirs,peer,50,7,,0\n`,
+    "agreement.csv": `${header}algorithm,origin,queries,wrong,worst_error,depth_bound\n${sets[3]}theirs,peer,50,7,,0\n${sets[3]}untimed,peer,50,3,,0\n`,
     "broad_best.csv":
       `${header}ours,peer,peer_ratio,peer_ratio_low,peer_ratio_high\n` +
       `${sets[0]}mine,theirs,3,2.8,3.2\n${sets[1]}mine,theirs,5,4.8,5.2\n`,
@@ -206,7 +206,7 @@ test("the first screen says who is fastest and who is right, and its state is in
       "ours faster in 2 of 2; median 3.87 × (3 … 5)",
       "ours faster in 0 of 2, equal in 1, no library is right in 1; 1.01 ×",
     ]);
-    assert.match(await first.locator(".faults").textContent(), /Libraries: wrong: theirs \(7 of 50 answers\)\. Ours: all right\./);
+    assert.match(await first.locator(".faults").textContent(), /Libraries: wrong: theirs \(7 of 50 answers\), untimed \(3 of 50 answers\)\. Ours: all right\./);
     // One thread alone is shown at first.
     assert.equal(await first.getByLabel("Threads").locator("option:checked").textContent(), "1");
     assert.deepEqual(await names(), ["mine", "theirs", "slow float"]);
