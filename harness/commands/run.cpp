@@ -114,7 +114,7 @@ campaign::Campaign campaign_of(const RunOptions& options) {
 void make_quick(campaign::Campaign& campaign) {
   constexpr double quick_seconds = 1;  // for the samples of a block
   constexpr int quick_squares = 8;     // an interval needs six, and some are disturbed
-  constexpr int quick_frames = 8;
+  constexpr int quick_frames = 4;
   campaign.name += "-quick";
   for (campaign::CampaignGroup& group : campaign.groups) {
     group.seconds = std::min(group.seconds, quick_seconds);
