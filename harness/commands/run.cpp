@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <string_view>
@@ -115,10 +116,14 @@ void make_quick(campaign::Campaign& campaign) {
   constexpr double quick_seconds = 1;  // for the samples of a block
   constexpr int quick_squares = 8;     // an interval needs six, and some are disturbed
   constexpr int quick_frames = 4;
+  constexpr std::int64_t quick_bodies = 3000;  // of a generator
   campaign.name += "-quick";
   for (campaign::CampaignGroup& group : campaign.groups) {
     group.seconds = std::min(group.seconds, quick_seconds);
     group.frames = std::min(group.frames, quick_frames);
+    for (std::int64_t& count : group.counts) count = std::min(count, quick_bodies);
+    const auto repeated = std::ranges::unique(group.counts);
+    group.counts.erase(repeated.begin(), repeated.end());
     group.rounds = 1;
     group.processes = 1;
     // The share of one of many sets would end before it has an interval.
@@ -265,8 +270,9 @@ void add_run(Arguments command) {
                "Make a page of the results, report.html in the folder");
   add_depth_error(command, options->depth_error);
   add_shard(command, options->plan, options->shard).excludes(campaign);
-  command.flag("--quick", options->quick,
-               "Take few samples, of at most 8 frames, for a first look");
+  command.flag(
+      "--quick", options->quick,
+      "Take few samples, of at most 4 frames and 3,000 generated bodies, for a first look");
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";
