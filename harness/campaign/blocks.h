@@ -21,8 +21,6 @@
 
 namespace touchstone::campaign {
 
-// Data on the current block that the parts of a run share.
-
 // One block: a scene as it is played, for every algorithm of a group.
 struct Block {
   const CampaignGroup* group = nullptr;
@@ -33,6 +31,7 @@ struct Block {
   std::optional<Isa> isa = {};  // the highest level for the kernels, if the campaign limits it
 };
 
+// This is the data on the current block that the parts of a run share.
 struct RunContext {
   std::string campaign;
   std::uint64_t seed = 1;   // the campaign's seed
@@ -71,8 +70,6 @@ struct RunContext {
   record::Departure departure(const AlgorithmInfo& info, std::string label,
                               std::string where) const;
 };
-
-// The blocks of a campaign, with their scenes.
 
 class CampaignBlocks {
  public:

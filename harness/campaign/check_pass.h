@@ -20,8 +20,6 @@
 
 namespace touchstone::campaign {
 
-// The findings of a block's check pass, from its rows. A run that is resumed reads the same rows.
-
 // Returns "BROAD|TASK|KIND" for a set of narrow phases; the set of the broad phases is "".
 std::string set_key(const measure::NarrowSet& set);
 std::string set_key(const record::RawRow& row);
@@ -38,6 +36,7 @@ struct Checked {
   double greatest_seconds() const;
 };
 
+// It has the findings of a block's check pass, from its rows. A run that is resumed reads the same rows.
 class CheckTable {
  public:
   // Takes the rows of this block's check pass.

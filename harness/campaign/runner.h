@@ -14,8 +14,6 @@
 
 namespace touchstone::campaign {
 
-// The folder of a run: writes its findings to raw.csv and departures.csv, unit by unit.
-
 // Returns the files of rows of a run: raw.csv and departures.csv, in this order.
 std::vector<record::RowFile> run_files();
 
@@ -35,8 +33,6 @@ class RunFolder {
   record::ResultFolder folder_;
   std::size_t rows_ = 0, departures_ = 0;  // numbers written
 };
-
-// Runs a campaign.
 
 struct RunResult {
   record::Findings findings;

@@ -1,5 +1,5 @@
-// Reads the files that say which cells are measured. Each kind of cell reads its own keys of a
-// table [cells], and makes its cells.
+// Reads the files that say which cells are measured. Each kind of cell reads its own keys of
+// the [[group]], and makes its cells.
 #pragma once
 
 #include <filesystem>

@@ -278,7 +278,8 @@ template <record::row_of<VerdictSum> Row, class Visit>
 void columns(Row& row, Visit visit, const CheckSubjects& subjects) {
   subject_columns(row.count, visit, subjects);
   visit("seed", row.seed, "Seed of the cases.");
-  visit("drawn", row.drawn, "Pairs drawn in all regimes, whether an algorithm takes them or not.");
+  visit("drawn", row.drawn,
+        "Cases drawn in all regimes and families, whether an algorithm takes them or not.");
   verdict_columns(row.count, visit);
   visit("program", row.program, "Hash of the program.");
 }

@@ -173,9 +173,8 @@ record::ResultFolderPlan check_folder(const CheckRequest& request) {
   std::vector<std::string_view> narrow, scalars;
   for (const NarrowPhaseEntry* entry : request.narrow) narrow.push_back(entry->info.name);
   std::vector<std::string> contestants;
-  for (const kinds::Contestant& contestant : request.contestants) {
-    contestants.push_back(fmt::format("{} {}", contestant.kind->name(), contestant.name()));
-  }
+  const auto name_of = request.subjects().contestant_name();
+  for (std::size_t i = 0; i < request.contestants.size(); ++i) contestants.push_back(name_of(i));
   for (const Precision scalar : request.scalars) scalars.push_back(to_string(scalar));
   record::Facts notes = {{"check", request.resume ? "resumed" : "whole"}};
   for (auto& fact : record::machine_facts()) notes.push_back(std::move(fact));

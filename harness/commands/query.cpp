@@ -339,7 +339,8 @@ std::string command_of(const kinds::QuestionInput& input, const files::ConcaveCa
 }
 
 // Makes the page of the pairs.
-void draw_pairs(const Questions& questions, const kinds::QuestionInput& input) {
+void draw_pairs(const Questions& questions, const kinds::QuestionInput& input,
+                const std::string& page) {
   const std::string name = input.file.filename().string();
   std::vector<report::AskedPair> pairs;
   for (const files::ConcaveCase& c : questions.pairs()) {
@@ -351,8 +352,7 @@ void draw_pairs(const Questions& questions, const kinds::QuestionInput& input) {
                      {"files", files::OrderedJson::object()},
                      {"cases", report::pair_views(pairs, input.seconds())},
                      {"notes", files::OrderedJson::array()}});
-  write_report(input.text("--page"), built_page(input.text("--built-page")), std::move(results),
-               files::OrderedJson::array());
+  write_report(input.text("--page"), page, std::move(results), files::OrderedJson::array());
 }
 
 int query(const QueryOptions& options) {
@@ -369,7 +369,8 @@ int query(const QueryOptions& options) {
   outputs.push_back({"--save-certificates", saved});
   files::check_outputs(questions->inputs(), outputs);
   const bool is_drawn = input.has("--page") && !questions->pairs().empty();
-  if (is_drawn) built_page(input.text("--built-page"));  // throws before anything is asked
+  // It throws before anything is asked.
+  const std::string page = is_drawn ? built_page(input.text("--built-page")) : "";
 
   std::optional<files::CsvWriter> csv;
   if (!options.out.empty()) csv.emplace(options.out, questions->columns());
@@ -380,7 +381,7 @@ int query(const QueryOptions& options) {
   const bool are_shown = !csv && questions->size() <= most_shown;
   if (!questions->print_summary(are_shown) && !are_shown) print_counts(*questions);
   print_scalar_hint(*questions, input.scalar());
-  if (is_drawn) draw_pairs(*questions, input);
+  if (is_drawn) draw_pairs(*questions, input, page);
   if (!saved.empty()) save_proofs(saved, questions->proving(), input.seconds());
   return questions->is_wrong() ? exit_measured_wrong : exit_done;
 }

@@ -270,9 +270,9 @@ void add_run(Arguments command) {
                "Make a page of the results, report.html in the folder");
   add_depth_error(command, options->depth_error);
   add_shard(command, options->plan, options->shard).excludes(campaign);
-  command.flag(
-      "--quick", options->quick,
-      "Take few samples, of at most 4 frames and 3,000 generated bodies, for a first look");
+  command.flag("--quick", options->quick,
+               "Take few samples, of at most 4 frames and 3,000 generated bodies where the "
+               "campaign names more, for a first look");
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
 
   const std::string one = "Instead of a campaign file";

@@ -65,19 +65,22 @@ std::string to_string(const PairFaults& faults) {
 
 namespace {
 
-// Grows the greatest extent and coordinate by a body's box; a half-space has no box.
+// Grows the greatest extent and coordinate by a box.
+void grow(ReferenceOutcome& reference, const Aabb& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = box.min[axis], high = box.max[axis];
+    reference.size = std::max(reference.size, high - low);
+    reference.reach = std::max({reference.reach, std::abs(low), std::abs(high)});
+  }
+}
+
+// Does the same by a body's box; a half-space has no box.
 void grow(ReferenceOutcome& reference, const Shape& shape, const Pose& pose) {
   if (shape.kind == ShapeKind::halfspace) {
     reference.reach = std::max(reference.reach, std::abs(shape.offset));
     return;
   }
-  const Aabb box = tight_box(shape, pose);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = box.min[axis];
-    const double high = box.max[axis];
-    reference.size = std::max(reference.size, high - low);
-    reference.reach = std::max({reference.reach, std::abs(low), std::abs(high)});
-  }
+  grow(reference, tight_box(shape, pose));
 }
 
 }  // namespace
@@ -177,18 +180,6 @@ std::vector<ReferenceOutcome> Reference::solve(const PairGroup& group,
   });
   return reference;
 }
-
-namespace {
-
-void grow(ReferenceOutcome& reference, const Aabb& box) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double low = box.min[axis], high = box.max[axis];
-    reference.size = std::max(reference.size, high - low);
-    reference.reach = std::max({reference.reach, std::abs(low), std::abs(high)});
-  }
-}
-
-}  // namespace
 
 ConcaveReference::ConcaveReference(std::span<const ConcaveBody> bodies)
     : oracle_(registry::find<ConcaveEntry>("exact")->make({})) {

@@ -9,8 +9,6 @@
 
 namespace touchstone::grade {
 
-// One answer with its grades.
-
 // A row of grades.csv. `regime` and `entry` are places in the lists of the request.
 struct GradedAnswer {
   std::uint32_t regime = 0, entry = 0;
@@ -46,8 +44,6 @@ inline Query query_of(const GradedAnswer& answer) {
 // Grades an outcome. `algorithm` belongs to the query, `extreme` to its regime (margins.h).
 GradedAnswer grade_answer(const NarrowPhaseEntry& algorithm, bool extreme, const Query& query,
                           TrueCase& c, const Outcome& outcome);
-
-// Counts of graded answers, with their greatest errors.
 
 // Counts for one algorithm in one scalar, over all tasks. Each error is the greatest seen, as a
 // part of the scale (GradedAnswer::scale), or NaN if there is none.

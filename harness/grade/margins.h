@@ -1,7 +1,7 @@
 // The margins of the project: the errors that an answer may have before it counts as wrong.
 //
-// Documented margins. An answer of ours may be wrong within them, and not beyond them. `check` and
-// `stress` apply them.
+// Documented margins. An answer of ours may be wrong within them, and not beyond them. `check` applies
+// them, also along axes.
 //
 //                                      double                float
 //                              unit scale  extreme   unit scale  extreme

@@ -24,8 +24,6 @@
 
 namespace touchstone::kinds {
 
-// A user's questions of one kind: read from a file, asked, and answered in rows, lines and proofs.
-
 // An option of `query` that some kinds have.
 struct QueryOption {
   enum class Value : std::uint8_t {

@@ -22,8 +22,6 @@
 
 namespace touchstone::kinds {
 
-// Keys that kinds of cells share.
-
 // The indices of the names that the key lists; all of them without the key.
 template <std::size_t size>
 std::vector<std::size_t> choices(files::TomlTable& table, std::string_view key,

@@ -9,6 +9,8 @@
 #include "harness/geometry/concave_bodies.h"
 #include "harness/grade/graded_answer.h"
 #include "harness/grade/wrong.h"
+#include "harness/kinds/mesh/mesh_grade.h"
+#include "harness/measure/narrow_choice.h"
 #include "harness/process/isolate.h"
 #include "harness/process/solve_case.h"
 #include "harness/record/build_info.h"
@@ -151,10 +153,6 @@ OrderedJson case_view(const ListedCase& listed, const std::filesystem::path& fol
       {"answers", std::move(subject.answers)}};
 }
 
-}  // namespace
-
-namespace {
-
 OrderedJson concave_body_view(const ConcaveBody& body, const Pose& pose) {
   if (!body.mesh && body.parts.size() == 1 && body.surfaces.empty()) {
     const ConvexPart& part = body.parts[0];
@@ -171,7 +169,7 @@ Outcome solve_concave(const ConcaveEntry& entry, Precision scalar, ConcaveTask t
                       const files::ConcaveCase& c) {
   const ConcaveSettings settings = {
       .scalar = scalar,
-      .mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make,
+      .mid_phase = registry::find<MidPhaseEntry>(measure::usual_mid_phase)->make,
       .narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); }};
   const std::vector<ConcaveBody> bodies = {c.a, c.b};
   const std::unique_ptr<ConcavePhase> phase = entry.make(settings);
@@ -180,6 +178,37 @@ Outcome solve_concave(const ConcaveEntry& entry, Precision scalar, ConcaveTask t
   std::vector<IndexPair> parts;
   phase->solve(task, {0, c.pose_a}, {1, c.pose_b}, outcome, parts);
   return outcome;
+}
+
+kinds::MeshAnswer mesh_answer(const Outcome& outcome) {
+  return {.status = outcome.status,
+          .answer = outcome.answer,
+          .distance = outcome.distance,
+          .lower = outcome.lower,
+          .upper = outcome.upper};
+}
+
+// Returns the grade in the words that the page has for answers about convex pairs.
+std::string_view word_of(kinds::Grade grade, Status status, bool is_approximate) {
+  switch (grade) {
+    case kinds::Grade::right:
+    case kinds::Grade::near:
+    case kinds::Grade::bound:
+    case kinds::Grade::inexact: return "right";  // the page judges the verdicts of meshes
+    case kinds::Grade::missed:
+    case kinds::Grade::false_hit: return is_approximate ? "approximate" : "silent";
+    case kinds::Grade::failed: return status == Status::crashed ? "crashed" : "hung";
+    case kinds::Grade::not_asked:
+    case kinds::Grade::unresolved:
+    case kinds::Grade::gave_up: break;
+  }
+  return "honest";
+}
+
+std::string reason_of(kinds::Grade grade, const Outcome& truth) {
+  if (grade == kinds::Grade::inexact) return "its distance or bounds are off";
+  const bool is_on_wrong_side = grade == kinds::Grade::missed || grade == kinds::Grade::false_hit;
+  return is_on_wrong_side ? fmt::format("the exact answer is {}", to_string(truth.answer)) : "";
 }
 
 OrderedJson concave_pair_view(const AskedPair& pair, double time_limit) {
@@ -210,29 +239,28 @@ OrderedJson concave_pair_view(const AskedPair& pair, double time_limit) {
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (asked[i].entry->info.origin == Origin::oracle) truth = solved.answers[i];
   }
-  const bool touches = truth.answer != Answer::separated;
+  const kinds::MeshAnswer exact = mesh_answer(truth);
+  const double reach = kinds::mesh_reach(pair.c.a, pair.c.pose_a, pair.c.b, pair.c.pose_b);
   OrderedJson answers = OrderedJson::array();
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const Outcome& outcome = solved.answers[i];
-    const bool is_known = outcome.answer != Answer::unknown && truth.answer != Answer::unknown;
-    const bool is_wrong = is_known && (outcome.answer != Answer::separated) != touches;
-    answers.push_back(
-        {{"algorithm", asked[i].entry->info.name},
-         {"origin", to_string(asked[i].entry->info.origin)},
-         {"scalar", to_string(asked[i].scalar)},
-         {"task", asked[i].task == ConcaveTask::distance ? "distance" : "intersect"},
-         {"answer", to_string(outcome.answer)},
-         {"status", to_string(outcome.status)},
-         {"distance", number(outcome.distance)},
-         {"lower", number(outcome.lower)},
-         {"upper", number(outcome.upper)},
-         {"normal", triple(outcome.normal)},
-         {"witness_a", triple(outcome.witness_a)},
-         {"witness_b", triple(outcome.witness_b)},
-         {"grade", is_wrong   ? "silent"
-                   : is_known ? "right"
-                              : "honest"},
-         {"why", is_wrong ? fmt::format("the exact answer is {}", to_string(truth.answer)) : ""}});
+    const kinds::Grade grade = kinds::grade_mesh(asked[i].task, mesh_answer(outcome), exact, &exact,
+                                                 asked[i].scalar, reach)
+                                   .grade;
+    answers.push_back({{"algorithm", asked[i].entry->info.name},
+                       {"origin", to_string(asked[i].entry->info.origin)},
+                       {"scalar", to_string(asked[i].scalar)},
+                       {"task", asked[i].task == ConcaveTask::distance ? "distance" : "intersect"},
+                       {"answer", to_string(outcome.answer)},
+                       {"status", to_string(outcome.status)},
+                       {"distance", number(outcome.distance)},
+                       {"lower", number(outcome.lower)},
+                       {"upper", number(outcome.upper)},
+                       {"normal", triple(outcome.normal)},
+                       {"witness_a", triple(outcome.witness_a)},
+                       {"witness_b", triple(outcome.witness_b)},
+                       {"grade", word_of(grade, outcome.status, asked[i].entry->approximate)},
+                       {"why", reason_of(grade, truth)}});
   }
   return {{"id", pair.c.id},
           {"source", pair.source},

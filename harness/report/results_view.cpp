@@ -109,7 +109,7 @@ files::OrderedJson csv_files(const fs::path& folder, files::OrderedJson& notes) 
 // True for results of several machines, each of which has tables of its own.
 bool has_machines(const fs::path& folder) { return fs::exists(folder / "across.csv"); }
 
-// A run leaves its rows alone; its tables are those that `tables` would write into the folder.
+// A run leaves its rows alone; its tables are those that `show --tables` would write into the folder.
 void add_tables(const fs::path& folder, files::OrderedJson& shown, files::OrderedJson& notes) {
   const bool has_tables = shown.contains("times.csv") || shown.contains("set_times.csv");
   if (has_tables || !fs::exists(files::row_file(folder / "raw.csv"))) return;

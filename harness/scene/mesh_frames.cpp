@@ -71,9 +71,9 @@ std::vector<Edge> edges_of(const geometry::Mesh& mesh) {
   return edges;
 }
 
-// Returns whether a float holds the coordinate. Throws InputError beyond the range of float.
-bool grow(Aabb& box, const Vec3d& point, const fs::path& file) {
-  bool is_float = true;
+// Returns how many coordinates no float holds. Throws InputError beyond the range of float.
+std::size_t grow(Aabb& box, const Vec3d& point, const fs::path& file) {
+  std::size_t rounded = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double value = point[static_cast<Eigen::Index>(i)];
     if (!(std::abs(value) <= double{std::numeric_limits<float>::max()})) {
@@ -83,9 +83,9 @@ bool grow(Aabb& box, const Vec3d& point, const fs::path& file) {
     }
     box.min[i] = std::min(box.min[i], round_down(value));
     box.max[i] = std::max(box.max[i], round_up(value));
-    is_float = is_float && double{static_cast<float>(value)} == value;
+    rounded += double{static_cast<float>(value)} == value ? 0 : 1;
   }
-  return is_float;
+  return rounded;
 }
 
 Aabb joined(const Aabb& a, const Aabb& b) {
@@ -175,8 +175,9 @@ std::vector<BoxFrame> read_mesh_frames(const fs::path& file) {
     boxes.reserve(before.vertices.size() + edges.size() + before.triangles.size());
     for (std::size_t v = 0; v < before.vertices.size(); ++v) {
       Aabb& box = boxes.emplace_back(Aabb::empty());
-      const bool is_float = grow(box, before.vertices[v], files[i - 1].path);
-      frame.rounded += grow(box, after.vertices[v], files[i].path) && is_float ? 0 : 1;
+      // What is between two steps is counted once.
+      const std::size_t rounded = grow(box, before.vertices[v], files[i - 1].path);
+      frame.rounded += grow(box, after.vertices[v], files[i].path) + (i == 1 ? rounded : 0);
     }
     for (const Edge& edge : edges) boxes.push_back(joined(boxes[edge[0]], boxes[edge[1]]));
     for (const auto& face : before.triangles) {
@@ -195,6 +196,8 @@ std::vector<BoxFrame> read_mesh_frames(const fs::path& file) {
                  frame.known_pairs);
     }
     std::ranges::sort(frame.known_pairs);
+    const auto again = std::ranges::unique(frame.known_pairs);
+    frame.known_pairs.erase(again.begin(), again.end());
     before = std::move(after);
   }
   return frames;

@@ -136,7 +136,6 @@ class Search {
       Test test = tested(i, watch, seconds);
       if (test.verdict == Verdict::right) {
         best_ = i;
-        advice_.best = all_[i];
         advice_.untested.reset();
         return keep(test);
       }
@@ -189,12 +188,6 @@ class Search {
     }
   }
 
-  bool within(const TradeOutcome& outcome) const {
-    return may_stand(problem_.budget, outcome.point.configuration.representations) &&
-           meets(problem_.budget, problem_.request.measure, outcome.evaluation,
-                 outcome.representation);
-  }
-
   void drop_by_error(std::size_t frames, std::vector<std::size_t>& members) {
     const std::span<const FrameTruth> known(truth_.data(), std::min(frames, truth_.size()));
     std::vector<TradePoint> points;
@@ -208,7 +201,7 @@ class Search {
       outcome.evaluation = std::move(found[k]);
       outcome.error =
           error_of(outcome.evaluation.errors, outcome.representation, problem_.request.measure);
-      if (within(outcome)) left.push_back(members[k]);
+      if (within(problem_, outcome)) left.push_back(members[k]);
     }
     members = std::move(left);
   }

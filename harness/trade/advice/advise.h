@@ -23,7 +23,7 @@ struct Advice {
   std::optional<TradeOutcome> untested;
   // The cheapest configuration with less error; empty if there is no error left.
   std::optional<TradeOutcome> next_better;
-  // The cheapest that meets the budget with a library among its algorithms, or, if the best has one, without.
+  // The cheapest that no test was against, with a library among its algorithms, or, if the best has one, without.
   std::optional<TradeOutcome> rival;
   // Grades of the best on scenes that the search did not look at, and what they show; without such scenes what the
   // scene itself shows. Where there is no best, of the untested.

@@ -213,6 +213,11 @@ std::vector<HeldOutGrade> HeldOutScenes::grade(const Configuration& configuratio
   return grades;
 }
 
+bool within(const AdviceProblem& problem, const TradeOutcome& outcome) {
+  return may_stand(problem.budget, outcome.point.configuration.representations) &&
+         meets(problem.budget, problem.request.measure, outcome.evaluation, outcome.representation);
+}
+
 bool all_within(std::span<const HeldOutGrade> grades) {
   return std::ranges::all_of(grades, &HeldOutGrade::within);
 }

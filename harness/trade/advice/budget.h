@@ -123,6 +123,8 @@ class HeldOutScenes {
   std::vector<One> scenes_;
 };
 
+// Returns whether a configuration may stand for the scene and its counted errors are allowed.
+bool within(const AdviceProblem& problem, const TradeOutcome& outcome);
 bool all_within(std::span<const HeldOutGrade> grades);
 // Sums counts; of numbers it has the greatest spread.
 PointErrors sum_of(std::span<const HeldOutGrade> grades);

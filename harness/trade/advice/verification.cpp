@@ -28,7 +28,7 @@ class Verifier {
                             held_out_share * problem_.request.seconds / draws);
     found_.held_out_on = elsewhere.name();
     found_.held_out = elsewhere.grade(choice, problem_.budget);
-    found_.within_budget = within(found_.choice) && all_within(found_.held_out);
+    found_.within_budget = within(problem_, found_.choice) && all_within(found_.held_out);
     const std::vector<TradeOutcome> rivals = fastest_rivals(elsewhere);
     problem_.said(fmt::format("against the fastest {} others within the budget", rivals.size()));
     found_.seconds = found_.choice.timed.seconds;
@@ -44,12 +44,6 @@ class Verifier {
   }
 
  private:
-  bool within(const TradeOutcome& outcome) const {
-    return may_stand(problem_.budget, outcome.point.configuration.representations) &&
-           meets(problem_.budget, problem_.request.measure, outcome.evaluation,
-                 outcome.representation);
-  }
-
   void measure_grid(const Configuration& choice, const std::filesystem::path& folder) {
     TradeRequest whole = problem_.request;
     if (whole.grids.empty()) {
@@ -65,7 +59,7 @@ class Verifier {
       if (point.point.configuration.name() == choice.name()) {
         found_.choice = std::move(point);
         has_choice = true;
-      } else if (point.ok() && within(point)) {
+      } else if (point.ok() && within(problem_, point)) {
         rivals_.push_back(std::move(point));
       }
     }

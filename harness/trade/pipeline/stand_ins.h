@@ -106,7 +106,7 @@ class StandInLibrary {
 };
 
 // For each shape of the scene: its mesh, a solid if that is closed, where the configuration
-// represents it by `mesh`; else a compound of its stand-in's parts. Shapes without a body are empty.
+// represents it by `mesh` or leaves it as it is given; else a compound of its stand-in's parts. Shapes without a body are empty.
 std::vector<ConcaveBody> whole_bodies(const SceneFrames& frames, const StandIns& stand_ins,
                                       const Configuration& configuration);
 

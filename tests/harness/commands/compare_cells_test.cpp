@@ -1,4 +1,4 @@
-// Tests of touchstone compare and tables on the results of a campaign of kinds, through the program.
+// Tests of touchstone compare and show --tables on the results of a campaign of kinds, through the program.
 #include <fstream>
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@ import { interval_text } from "../base/numbers";
 import type { Input, Lead } from "../tables/contest";
 import { ratio_axis, ratio_ticks, times_text } from "./race";
 
-export const colour_of_lead: Partial<Record<Lead, string>> = {
+const colour_of_lead: Partial<Record<Lead, string>> = {
   ours: "var(--ours)",
   libraries: "var(--peer)",
 };

@@ -58,7 +58,8 @@ export interface Input {
   first: Row | null; // of winners.csv: the fastest of all that are right, and the next
 }
 
-// A distance or depth is right if it is within this part of the pair's size.
+// The page marks a distance or depth as inexact beyond this part of the pair's size. It is usual_depth_error of
+// harness/stats/tables/tables.h; tables that were made with another --depth-error lead by that one.
 const depth_error = 1e-3;
 
 const questions: Record<string, string> = {
@@ -208,7 +209,12 @@ const variant_of = (row: Row): string =>
     .filter(Boolean)
     .join(", ");
 
+// The inputs of each folder, which several sections show.
+const made = new WeakMap<Folder, Input[]>();
+
 export function inputs_of(folder: Folder, approximate: string[] = []): Input[] {
+  const known = made.get(folder);
+  if (known) return known;
   const cells = !folder.has("times.csv");
   const times = folder.rows(cells ? "set_times.csv" : "times.csv");
   const by_label = (file: string): Map<string, Row> =>
@@ -276,7 +282,9 @@ export function inputs_of(folder: Folder, approximate: string[] = []): Input[] {
     for (const input of own) input.name = short_name(input, own, !alone.includes(line));
   }
   const rank = ({ lead, line }: Input): number => (lead === "no library" ? 2 : alone.includes(line) ? 0 : 1);
-  return usable.sort((a, b) => rank(a) - rank(b));
+  usable.sort((a, b) => rank(a) - rank(b));
+  made.set(folder, usable);
+  return usable;
 }
 
 // Scenes with times of broad and of narrow phases. The summary has a line for each of the first four.
