@@ -83,6 +83,9 @@ std::optional<KindWords> kind_named(std::string_view word);
 template <class Entry>
 std::span<const Entry> entries();
 
+// False in the first program, which lists only what the standard comparison measures.
+bool is_whole();
+
 // Returns null if no entry has that name.
 template <class Entry>
 const Entry* find(std::string_view name) {

@@ -1,4 +1,4 @@
-// The executable `touchstone`: the commands that measure and compare.
+// The executable `touchstone`: the standard comparison, and what shows results.
 #include "harness/commands/commands.h"
 #include "harness/commands/program.h"
 

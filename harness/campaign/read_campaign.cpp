@@ -167,6 +167,7 @@ std::vector<measure::NarrowChoice> narrow_choices(Settings& settings) {
 
 // Returns each concave phase with each of its scalars, and those that take any mid-phase with each.
 std::vector<measure::NarrowChoice> concave_choices(Settings& settings) {
+  if (!registry::is_whole()) return {};  // the standard campaign has no such bodies
   const auto scalars = settings.choices<Precision>("scalars", scalar_names,
                                                    {Precision::float32, Precision::float64});
   return measure::concave_choices(
@@ -208,6 +209,11 @@ std::vector<CampaignRule> rules(Settings& settings, const std::string& key) {
     }
     if (rule.broad && rule.narrow) {
       table.fail("narrow", "a rule is about a broad phase or a narrow phase, not both");
+    }
+    // The first program has the standard campaign alone, which excludes what is not in its list.
+    if (!registry::is_whole()) {
+      table.finish();
+      continue;
     }
     if (rule.broad && registry::find<BroadPhaseEntry>(*rule.broad) == nullptr) {
       table.fail("broad", "no broad phase is called '" + *rule.broad + "'");

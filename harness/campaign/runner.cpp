@@ -162,7 +162,8 @@ void run_block(RunContext context, bool checked, base::Progress& progress, RunFo
 }  // namespace
 
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                       record::FolderStart start, const std::optional<record::Part>& part) {
+                       record::FolderStart start, const std::optional<record::Part>& part,
+                       const std::function<bool()>& before) {
   process::expect_one_thread();
   const CampaignBlocks blocks(campaign, part ? std::optional(part->units) : std::nullopt);
   record::Facts facts = campaign_facts(campaign, blocks.scene_hashes());
@@ -170,6 +171,11 @@ RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& fo
   RunResult result;
   RunFolder files(folder, std::move(facts), start, result.findings);
   if (files.was_finished()) return result;
+  if (before && start != record::FolderStart::resume && !before()) {
+    result.interrupted = true;
+    result.stopped_at = "the first look";
+    return result;
+  }
   const auto& rows = result.findings.rows();
   // The block at which the run stopped.
   const std::int64_t at = rows.empty() ? -1 : rows.back().block;

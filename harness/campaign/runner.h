@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,7 +51,8 @@ struct RunResult {
 // been used in it.
 RunResult run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
                        record::FolderStart start = record::FolderStart::fresh,
-                       const std::optional<record::Part>& part = {});
+                       const std::optional<record::Part>& part = {},
+                       const std::function<bool()>& before = {});
 
 // Runs the check pass of every block alone: the campaign's answers, without samples and files.
 record::Findings check_campaign(const Campaign& campaign);

@@ -24,7 +24,8 @@ enum ExitStatus : int {
 #undef TOUCHSTONE_DECLARE_touchstone_more
 #undef TOUCHSTONE_DECLARE_launcher
 
-// `run` of the executable `touchstone_more`: for all but a campaign.
-void add_run_file(Arguments command);
+// `run` and `show` of the executable `touchstone_more`: for any file, and any results.
+void add_run_of_any(Arguments command);
+void add_show_of_any(Arguments command);
 
 }  // namespace touchstone::commands

@@ -5,11 +5,8 @@
 // TOUCHSTONE_COMMAND(program, name, "what it takes", "heading in --help", "one line about it")
 //   program: `touchstone` or `touchstone_more`, which have a function add_NAME, or `launcher`.
 // TOUCHSTONE_FILES(name, "files of harness/commands, without .cpp")
-//   Of a command of `touchstone`: what it alone needs. All files that are in no row, but for those
+//   Of a command of `touchstone`: what it alone needs. What such a command cannot do there it hands over. All files that are in no row, but for those
 //   that every command needs (harness/CMakeLists.txt), belong to `touchstone_more`.
-// TOUCHSTONE_MORE_OPTION(name, "--option"), TOUCHSTONE_MORE_KEY(name, "key")
-//   A command of `touchstone` that `touchstone_more` must do, or help with, where it is given this
-//   option, or a file with this key at its top or in a [[group]].
 // TOUCHSTONE_NESTED(name, word, "what it takes", "one line about it")
 //   A command within a command of `touchstone_more`, which has a function add_NAME_WORD.
 // TOUCHSTONE_RENAMED(old name, "what to write instead, behind the name of the program")
@@ -22,12 +19,6 @@
 #endif
 #ifndef TOUCHSTONE_FILES
 #define TOUCHSTONE_FILES(name, files)
-#endif
-#ifndef TOUCHSTONE_MORE_OPTION
-#define TOUCHSTONE_MORE_OPTION(name, option)
-#endif
-#ifndef TOUCHSTONE_MORE_KEY
-#define TOUCHSTONE_MORE_KEY(name, key)
 #endif
 #ifndef TOUCHSTONE_NESTED
 #define TOUCHSTONE_NESTED(command, name, takes, about)
@@ -42,22 +33,12 @@
 
 TOUCHSTONE_COMMAND(touchstone, run, "[CAMPAIGN.toml]", "Measure", "Run a campaign: every scene through every algorithm, compared and timed")
 TOUCHSTONE_FILES(run, "run pictures")
-TOUCHSTONE_MORE_OPTION(run, "--plan")
-TOUCHSTONE_MORE_OPTION(run, "--report")
-TOUCHSTONE_MORE_KEY(run, "trade")
-TOUCHSTONE_MORE_KEY(run, "check")
-TOUCHSTONE_MORE_KEY(run, "stress")
-TOUCHSTONE_MORE_KEY(run, "soak")
-TOUCHSTONE_MORE_KEY(run, "kind")
-TOUCHSTONE_MORE_KEY(run, "cells")
-TOUCHSTONE_COMMAND(touchstone, compare, "OLD NEW", "Measure", "Compare two results, or two builds of this program: is B slower than A?")
-TOUCHSTONE_FILES(compare, "compare")
+TOUCHSTONE_COMMAND(touchstone_more, compare, "OLD NEW", "Measure", "Compare two results, or two builds of this program: is B slower than A?")
 TOUCHSTONE_COMMAND(touchstone_more, advise, "SCENE --max-error E", "Measure", "Find the cheapest setup for a scene within an error budget, or all that no other beats")
 TOUCHSTONE_COMMAND(launcher, bench, "[OPTIONS OF GOOGLE BENCHMARK]", "Measure", "Time single kernels, or count their instructions")
 
 TOUCHSTONE_COMMAND(touchstone_more, check, "", "Check", "Grade every algorithm against exact answers: on hard cases, to its limits, by the million")
-TOUCHSTONE_COMMAND(touchstone, reproduce, "[REFERENCE]", "Check", "Measure the reference results again, and compare its tables")
-TOUCHSTONE_FILES(reproduce, "reproduce")
+TOUCHSTONE_COMMAND(touchstone_more, reproduce, "[REFERENCE]", "Check", "Measure the reference results again, and compare its tables")
 TOUCHSTONE_COMMAND(launcher, test, "[ROOM] [OPTIONS OF CTEST]", "Check", "Build and run every test, or those of one room such as harness/stats")
 
 TOUCHSTONE_COMMAND(touchstone_more, query, "FILE", "Ask", "Ask algorithms the questions of a file: pairs, boxes, rays, points, moving bodies")
@@ -72,8 +53,7 @@ TOUCHSTONE_RENAMED(manifold, "query --kind manifold ...")
 TOUCHSTONE_COMMAND(touchstone, show, "RESULTS", "Show", "Print the summary of a results folder again; write its tables, draw its figures")
 TOUCHSTONE_FILES(show, "show")
 TOUCHSTONE_COMMAND(touchstone_more, report, "RESULTS...", "Show", "Make a page of results and scenes that opens in a browser")
-TOUCHSTONE_COMMAND(touchstone, list, "", "Show", "List the algorithms, built or not")
-TOUCHSTONE_FILES(list, "list")
+TOUCHSTONE_COMMAND(touchstone_more, list, "", "Show", "List the algorithms, built or not")
 
 TOUCHSTONE_COMMAND(touchstone_more, scene, "draw|record|represent|describe|hash SCENE", "Scenes and clusters", "Draw, record, represent or describe a scene, or print its hash")
 TOUCHSTONE_NESTED(scene, draw, "SCENE --out PICTURE.png", "Draw a frame of a scene as a PNG")
@@ -103,8 +83,6 @@ TOUCHSTONE_RENAMED(merge, "shards merge ...")
 // clang-format on
 #undef TOUCHSTONE_COMMAND
 #undef TOUCHSTONE_FILES
-#undef TOUCHSTONE_MORE_OPTION
-#undef TOUCHSTONE_MORE_KEY
 #undef TOUCHSTONE_NESTED
 #undef TOUCHSTONE_RENAMED
 #undef TOUCHSTONE_RENAMED_OPTION

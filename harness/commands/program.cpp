@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -28,6 +29,15 @@
 
 namespace touchstone::commands {
 namespace {
+
+std::string
+    launcher;  // the file of what started this program; empty where that was not the launcher
+
+// Keeps the launcher from the programs that this one starts: another tree has another.
+void take_launcher() {
+  if (const char* const file = std::getenv("TOUCHSTONE_LAUNCHER")) launcher = file;
+  unsetenv("TOUCHSTONE_LAUNCHER");
+}
 
 struct CommandRow {
   std::string_view program, name, heading, about;
@@ -153,17 +163,17 @@ std::string more_first_word() {
 void hand_over() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  std::string first = more_first_word();
+  std::string first = launcher.empty() ? more_first_word() : "--more";
   std::vector<char*> words;
   for (std::size_t i = 0; i < text.size(); i = text.find('\0', i) + 1) {
     words.push_back(&text[i]);
     if (i == 0) words.push_back(first.data());
   }
   words.push_back(nullptr);
-  const std::string program = more_program();
-  if (std::filesystem::read_symlink("/proc/self/exe") == program) {
+  if (std::filesystem::read_symlink("/proc/self/exe") == more_program()) {
     throw base::InputError("found a command of `touchstone`; expected another");
   }
+  const std::string program = launcher.empty() ? more_program() : launcher;
   std::fflush(stdout);
   execv(program.c_str(), words.data());
   throw base::InputError(
@@ -175,6 +185,7 @@ void hand_over() {
 
 int run_program(int argc, char** argv, const record::Build& build,
                 std::initializer_list<OwnCommand> own) {
+  take_launcher();
   record::set_build(build);
   process::escape_output();
   try {

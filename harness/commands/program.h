@@ -1,7 +1,6 @@
 // The main function of the program, which is two executables.
-// A comparison does not wait for the compilation of all other commands: `touchstone` has the
-// commands that measure and compare, `touchstone_more` has the others. The first has the names of
-// all, and runs the second when needed.
+// The standard comparison does not wait for the compilation of all else: `touchstone` has what it measures,
+// `touchstone_more` has everything. The first has the names of all commands, and hands over to the second.
 #pragma once
 
 #include <initializer_list>
@@ -31,7 +30,8 @@ int run_program(int argc, char** argv, const record::Build& build,
 std::string more_program();
 std::string more_first_word();
 
-// Replaces this process by `touchstone_more` with the same words, or throws InputError.
+// Replaces this process by `touchstone_more` with the same words, or throws InputError. Where the launcher started this
+// program, the launcher takes its place, and builds the other first.
 [[noreturn]] void hand_over();
 
 }  // namespace touchstone::commands

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "harness/base/error.h"
@@ -16,8 +19,8 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures.h"
 #include "harness/commands/program.h"
+#include "harness/commands/run_file.h"
 #include "harness/commands/shared_options.h"
-#include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
@@ -159,29 +162,6 @@ record::FolderStart start_of(const RunOptions& options) {
   return options.overwrite ? record::FolderStart::overwrite : record::FolderStart::fresh;
 }
 
-// Runs another file than a campaign, which the other executable does.
-int run_other_file(const RunOptions& options) {
-  if (options.overwrite || options.strict || options.noisy || options.dry_run || options.tables ||
-      options.quick) {
-    throw base::InputError(
-        options.campaign +
-        " is no campaign of scenes; expected no options but --out, --resume, --threads and "
-        "--report with such a file");
-  }
-  hand_over();
-}
-
-// Takes the keys from the table of commands, because this executable lacks what reads them.
-bool is_other_file(const std::string& file) {
-  constexpr auto keys = std::to_array<std::string_view>({
-#define TOUCHSTONE_MORE_KEY(name, key) key,
-#include "harness/commands/commands.inl"
-  });
-  return std::ranges::any_of(keys, [&](std::string_view key) {
-    return files::has_key(file, key) || files::has_key(file, "group." + std::string(key));
-  });
-}
-
 // Returns the names that the user wrote out in a list of algorithms, without words such as `ours`.
 void add_named(const std::string& list, std::vector<std::string>& names) {
   constexpr auto words =
@@ -221,9 +201,46 @@ void report(const campaign::Campaign& campaign, const campaign::RunResult& resul
   print_summary(folder, report.summary);
 }
 
-int run(const RunOptions& options) {
-  if (!options.plan.empty()) hand_over();
-  if (!options.campaign.empty() && is_other_file(options.campaign)) return run_other_file(options);
+// Measures a small part of the campaign and prints its summary. Returns false if it was interrupted.
+bool run_first_look(campaign::Campaign campaign, const std::filesystem::path& folder,
+                    RunOptions options) {
+  make_quick(campaign);
+  options.tables = false;
+  fmt::print(stderr, "a first look, then the whole comparison\n");
+  const campaign::RunResult result =
+      campaign::run_campaign(campaign, folder, record::FolderStart::overwrite);
+  if (result.interrupted) return false;
+  report(campaign, result, folder, options);
+  fmt::print("\nThat was a first look; the whole comparison follows.\n\n");
+  std::fflush(stdout);
+  return true;
+}
+
+// Does what is asked of another file than a campaign of scenes, or of a shard; returns nothing for such a campaign.
+std::optional<int> run_other_file(const RunOptions& options, RunFile run_file) {
+  RunFileOptions of_file = {.file = options.campaign,
+                            .out = options.out,
+                            .plan = options.plan,
+                            .shard = options.shard,
+                            .with_page = options.with_page,
+                            .resume = options.resume};
+  if (options.threads_given) of_file.threads = options.threads;
+  if (options.overwrite) of_file.others.emplace_back("--overwrite");
+  if (options.strict) of_file.others.emplace_back("--strict");
+  if (options.noisy) of_file.others.emplace_back("--noisy");
+  if (options.dry_run) of_file.others.emplace_back("--dry-run");
+  if (options.tables) of_file.others.emplace_back("--tables");
+  if (options.quick) of_file.others.emplace_back("--quick");
+  return run_file(of_file);
+}
+
+int run(const RunOptions& options, RunFile run_file) {
+  const bool is_standard = options.campaign.empty() && options.scenes.empty();
+  const bool is_shard = !options.plan.empty();
+  if (run_file == nullptr && (!is_standard || is_shard || options.with_page)) hand_over();
+  if (!options.campaign.empty() || is_shard) {
+    if (const auto status = run_other_file(options, run_file)) return *status;
+  }
   if (options.threads_given && options.scenes.empty()) {
     throw base::InputError(
         "--threads belongs to --scene or --plan; expected it in the campaign's file");
@@ -241,16 +258,18 @@ int run(const RunOptions& options) {
       throw base::InputError("the machine is not quiet, and --strict was given: " + objection);
     }
   }
-  const campaign::RunResult result = campaign::run_campaign(campaign, folder, start_of(options));
+  const auto look_first = [&] { return run_first_look(campaign, folder / "first-look", options); };
+  const bool has_first_look = is_standard && !options.quick;
+  const campaign::RunResult result =
+      campaign::run_campaign(campaign, folder, start_of(options), {},
+                             has_first_look ? std::function<bool()>(look_first) : nullptr);
   report(campaign, result, folder, options);
   if (options.with_page) make_page(folder);
   if (result.interrupted) return end_interrupted();
   return result.findings.ours_are_wrong() ? exit_measured_wrong : exit_done;
 }
 
-}  // namespace
-
-void add_run(Arguments command) {
+void add_run_options(Arguments command, RunFile run_file) {
   auto options = std::make_shared<RunOptions>();
   const Option campaign = command.text(
       "campaign", options->campaign, "Campaign file (.toml); without one, the standard comparison");
@@ -326,10 +345,15 @@ void add_run(Arguments command) {
                   "Pairs of a narrow phase's call; 1: one pair at a time")
           .within(1, measure::usual_batch)
           .show_default());
-  command.job([options, threads] {
+  command.job([options, threads, run_file] {
     options->threads_given = threads.given();
-    return run(*options);
+    return run(*options, run_file);
   });
 }
+
+}  // namespace
+
+void add_run(Arguments command) { add_run_options(command, nullptr); }
+void add_run(Arguments command, RunFile run_file) { add_run_options(command, run_file); }
 
 }  // namespace touchstone::commands

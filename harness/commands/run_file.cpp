@@ -3,7 +3,9 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <memory>
+#include <array>
+#include <optional>
+#include <string_view>
 
 #include "harness/base/error.h"
 #include "harness/cells/read_cells.h"
@@ -12,7 +14,9 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures.h"
+#include "harness/commands/run_file.h"
 #include "harness/commands/shared_options.h"
+#include "harness/files/toml_table.h"
 #include "harness/shards/shard_folder.h"
 #include "harness/stats/cell_tables.h"
 
@@ -25,15 +29,16 @@ int processors() {
   return sched_getaffinity(0, sizeof mask, &mask) == 0 ? std::max(1, CPU_COUNT(&mask)) : 1;
 }
 
-struct RunFileOptions {
-  std::string file, out, plan;
-  std::int64_t shard = -1;
-  int threads = processors();
-  bool with_page = false, resume = false;
-};
+// Returns how many processes share the work.
+int workers(const RunFileOptions& options) {
+  if (options.threads.size() > 1) {
+    throw base::InputError("--threads: found several numbers; expected one with such work");
+  }
+  return options.threads.empty() ? processors() : options.threads.front();
+}
 
 int run_shard(const RunFileOptions& options) {
-  switch (shards::run_shard(options.plan, options.shard, options.threads)) {
+  switch (shards::run_shard(options.plan, options.shard, workers(options))) {
     case shards::ShardEnd::was_done:
       fmt::print("shard {} was done before\n", options.shard);
       return exit_done;
@@ -72,7 +77,7 @@ int run_check_file(const RunFileOptions& options) {
   const std::filesystem::path folder = results_folder(options.out, name);
   request.out = folder;
   request.resume = options.resume;
-  request.workers = options.threads;
+  request.workers = workers(options);
   const check::CheckEnd end = check::run_and_tell(request);
   if (end.interrupted) return end_interrupted();
   print_summary(folder, fmt::format("{}\nRows in {}\n", end.text, folder.string()));
@@ -94,34 +99,34 @@ int run_cells(const RunFileOptions& options) {
   return result.ours_wrong ? exit_measured_wrong : exit_done;
 }
 
-int run_file(const RunFileOptions& options, const Option& threads) {
+// The tables that make a file no campaign of scenes, at its top or in a [[group]].
+bool is_of_scenes(const std::string& file) {
+  constexpr auto keys =
+      std::to_array<std::string_view>({"trade", "check", "stress", "soak", "kind", "cells"});
+  return std::ranges::none_of(keys, [&](std::string_view key) {
+    return files::has_key(file, key) || files::has_key(file, "group." + std::string(key));
+  });
+}
+
+std::optional<int> run_file(const RunFileOptions& options) {
   if (!options.plan.empty()) return run_shard(options);
+  if (is_of_scenes(options.file)) return std::nullopt;
+  if (!options.others.empty()) {
+    throw base::InputError(
+        fmt::format("{} is no campaign of scenes, and {} was given; expected no options but --out, "
+                    "--resume, --threads and --report with such a file",
+                    options.file, options.others.front()));
+  }
   const bool is_of_cells = cells::has_cells(options.file);
   if (!is_of_cells && check::has_check(options.file)) return run_check_file(options);
-  expect_not_given({threads}, "with a shard, or a table [check] alone");
+  if (!options.threads.empty()) {
+    throw base::InputError("--threads: expected only with a shard, or a table [check] alone");
+  }
   return is_of_cells ? run_cells(options) : run_trades(options);
 }
 
 }  // namespace
 
-void add_run_file(Arguments command) {
-  const auto options = std::make_shared<RunFileOptions>();
-  const Option file =
-      command.text("campaign", options->file,
-                   "A file with a table [trade] or [check], or a [[group]] of a kind");
-  command.text("--out", options->out, "Folder (default: results/local/NAME in the project)")
-      .needs(file);
-  command
-      .flag("--report", options->with_page, "Make a page of the results, report.html in the folder")
-      .needs(file);
-  command
-      .flag("--resume", options->resume,
-            "Go on with the work that was stopped in the folder of --out; not for trades")
-      .needs(file);
-  add_shard(command, options->plan, options->shard).excludes(file);
-  const Option threads = add_threads(command, options->threads,
-                                     "Processes that share a check (default: one a processor)");
-  command.job([options, threads] { return run_file(*options, threads); });
-}
+void add_run_of_any(Arguments command) { add_run(command, run_file); }
 
 }  // namespace touchstone::commands

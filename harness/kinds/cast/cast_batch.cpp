@@ -12,7 +12,7 @@
 #include "harness/kinds/cast/cast_grade.h"
 #include "harness/kinds/cast/cast_kind.h"
 #include "harness/kinds/grading.h"
-#include "harness/process/solve_case.h"
+#include "harness/process/solve_cast.h"
 
 namespace touchstone::kinds {
 namespace {

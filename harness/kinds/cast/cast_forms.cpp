@@ -6,7 +6,7 @@
 
 #include "harness/families/moving_pairs.h"
 #include "harness/geometry/tessellation.h"
-#include "harness/process/solve_case.h"
+#include "harness/process/solve_cast.h"
 
 namespace touchstone::kinds {
 namespace {

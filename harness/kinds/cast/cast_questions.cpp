@@ -15,7 +15,7 @@
 #include "harness/files/csv.h"
 #include "harness/kinds/proofs.h"
 #include "harness/kinds/questions.h"
-#include "harness/process/solve_case.h"
+#include "harness/process/solve_cast.h"
 
 namespace touchstone::kinds {
 namespace {

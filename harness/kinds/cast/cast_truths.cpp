@@ -10,7 +10,7 @@
 #include "algorithms/registry.h"
 #include "harness/families/grid_touches.h"
 #include "harness/families/moving_pairs.h"
-#include "harness/process/solve_case.h"
+#include "harness/process/solve_cast.h"
 
 namespace touchstone::kinds {
 namespace {

@@ -154,5 +154,37 @@ TEST_F(TwoPrograms, TheFirstNamesItsBuild) {
       << ran.text;
 }
 
+// The launcher builds the second program before it runs it.
+TEST_F(TwoPrograms, TheFirstHandsOverThroughTheLauncher) {
+  folder_.write("launcher", "#!/bin/sh\nprintf '%s|' \"$@\" \"$TOUCHSTONE_LAUNCHER\"\n");
+  fs::permissions(folder_.path() / "launcher", fs::perms::owner_all);
+  const std::string launcher =
+      "TOUCHSTONE_LAUNCHER=" + (folder_.path() / "launcher").string() + " ";
+  for (const std::string words : {"check|--seed|1", "run|file.toml", "run|--scene|a.toml",
+                                  "run|--report", "run|--plan|d|--shard|1"}) {
+    std::string line = words;
+    std::ranges::replace(line, '|', ' ');
+    EXPECT_EQ(run_shell(launcher + TOUCHSTONE_PROGRAM + " " + line).text, "--more|" + words + "||");
+  }
+}
+
+// The first program lists less than the second, but all that the standard comparison measures.
+TEST_F(TwoPrograms, PlanTheSameStandardComparison) {
+  const auto plan = [](const std::string& program) {
+    const Ran ran = run_shell(program + " run --quick --dry-run");
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    std::istringstream lines(ran.text);
+    std::string sets;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find(" s for the ") == std::string::npos && !line.starts_with("  check: about"))
+        sets += line + "\n";
+    }
+    return sets;
+  };
+  const std::string sets = plan(TOUCHSTONE_PROGRAM);
+  EXPECT_THAT(sets, HasSubstr("gjk-lanes"));
+  EXPECT_EQ(sets, plan(more().string()));
+}
+
 }  // namespace
 }  // namespace touchstone

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "harness/files/toml_table.h"
 #include "tests/harness/commands/program.h"
 #include "tests/project_folder.h"
 
@@ -40,11 +39,6 @@ const std::vector<std::string> nested = {
 
 const std::vector<std::string> old_names = {
 #define TOUCHSTONE_RENAMED(name, line) #name,
-#include "harness/commands/commands.inl"
-};
-
-const std::vector<std::string> keys_of_more = {
-#define TOUCHSTONE_MORE_KEY(name, key) key,
 #include "harness/commands/commands.inl"
 };
 
@@ -160,41 +154,20 @@ TEST_F(Launcher, BuildsWhatEveryCommandOfTheReadmeRuns) {
     EXPECT_TRUE(seen.contains(row.name)) << row.name << " of commands.inl";
 }
 
-TEST_F(Launcher, BuildsWhatEveryFileOfTheDatasetsNeeds) {
-  int campaigns = 0, others = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(project("datasets"))) {
-    if (entry.path().extension() != ".toml") continue;
-    const bool is_other = std::ranges::any_of(keys_of_more, [&](const auto& key) {
-      return files::has_key(entry.path(), key) || files::has_key(entry.path(), "group." + key);
-    });
-    ++(is_other ? others : campaigns);
-    expect_built("run " + entry.path().string() + " --out x", is_other ? both : first);
-  }
-  EXPECT_GT(campaigns, 5);
-  EXPECT_GT(others, 5);
-}
-
-TEST_F(Launcher, KnowsTheKeysOfAFileInEverySpelling) {
-  for (const std::string& key : keys_of_more) {
-    for (const std::string& text :
-         {"[" + key + "]\n", "[[" + key + "]]\n", "name = 'x'\n  [ " + key + " ]\n",
-          key + " = {}\n", key + ".seed = 1\n", "\"" + key + "\" = {}\n",
-          "\xEF\xBB\xBF[" + key + "]\n", "['" + key + "'.x]\r\n"}) {
-      const fs::path file = folder_.write("file.toml", text);
-      ASSERT_TRUE(files::has_key(file, key)) << text;
-      expect_built("run " + file.string(), both);
-    }
-  }
+TEST_F(Launcher, BuildsTheSecondProgramWhereTheFirstHandsOver) {
   for (const std::string& words : nested) expect_built(words + " x", both);
   expect_built("check --axes", both);
-  expect_built("--isa avx2 run --plan DIR --shard 1", both);
-  expect_built("run --plan=DIR --shard=1", both);
-  expect_built("run --report", both);
-  expect_built("run /dev/stdin </dev/null", both);
-  // A comparison does not wait for the second program.
-  const fs::path campaign = folder_.write("file.toml", "# check\nname = 'cells'\n[[group]]\n");
-  EXPECT_EQ(launch("run " + campaign.string()).asked, first);
-  EXPECT_EQ(launch("run").asked, first);
+  const Launched more = launch("--more --isa avx2 run 'a file.toml' --report");
+  EXPECT_EQ(more.asked, both);
+  EXPECT_EQ(more.ran, "touchstone_more --isa avx2 run a file.toml --report");
+  // The standard comparison does not wait for it, and its program knows whom to ask for it.
+  const std::string stub = folder_.read("bin/ninja");
+  write_program("bin/ninja", stub + R"(
+    echo 'echo "$TOUCHSTONE_LAUNCHER"' >>"$folder/touchstone")");
+  const Launched standard = launch("run --quick");
+  EXPECT_EQ(standard.asked, first);
+  EXPECT_EQ(standard.ran, "touchstone run --quick");
+  EXPECT_THAT(standard.text, HasSubstr(path("tree/touchstone") + "\n"));
 }
 
 TEST_F(Launcher, HelpsWithoutBuilding) {
@@ -282,7 +255,7 @@ TEST_F(Launcher, WaitsForBuildsAloneAndSaysForWhose) {
     exec 8>>tree/build/release/.lock
     flock 8
     echo 'process 7 since 10:00:00, ./touchstone check' >tree/build/release/.lock
-    LOG=$PWD PATH=$PWD/bin:$PATH tree/touchstone list >out 2>&1 8>&- &
+    LOG=$PWD PATH=$PWD/bin:$PATH tree/touchstone run >out 2>&1 8>&- &
     until [[ -s out ]]; do sleep 0.05; done
     exec 8>&-
     wait $!)");
@@ -292,7 +265,7 @@ TEST_F(Launcher, WaitsForBuildsAloneAndSaysForWhose) {
   // A program that runs holds nothing.
   write_program("bin/ninja", R"(
     printf '#!/bin/sh\nflock -n "${0%%/harness*}/.lock" echo free\n' >"$2/harness/touchstone")");
-  EXPECT_THAT(launch("list").text, HasSubstr("free\n"));
+  EXPECT_THAT(launch("run").text, HasSubstr("free\n"));
 }
 
 TEST_F(Launcher, SaysHowFarABuildIs) {
