@@ -24,7 +24,6 @@ namespace touchstone::commands {
 namespace {
 
 constexpr int quick_cases = 4;
-constexpr int most_cases_of_axes = 100'000;
 
 struct CheckOptions {
   check::CaseSelection selection;
@@ -60,9 +59,9 @@ check::CheckRequest request_of(const CheckOptions& options, check::CheckMode mod
   if (options.cases) request.cases = *options.cases;
   if (options.quick) request.cases = quick_cases;
   if (options.time_limit) request.time_limit = *options.time_limit;
-  if (mode == check::CheckMode::axes && request.cases > most_cases_of_axes) {
+  if (mode == check::CheckMode::axes && request.cases > kinds::most_cases_of_axes) {
     throw base::InputError(fmt::format("--cases: found {}; expected at most {} with --axes",
-                                       request.cases, most_cases_of_axes));
+                                       request.cases, kinds::most_cases_of_axes));
   }
   check::select_cases(options.selection, options.axes, request);
   request.out = results_folder(options.out, std::string(names_of(mode).folder));
@@ -70,20 +69,9 @@ check::CheckRequest request_of(const CheckOptions& options, check::CheckMode mod
 }
 
 int verify(const std::string& file) {
-  check::CertificateVerdicts verdicts;
-  const auto print = [&](const char* until) {
-    for (const std::string& line : verdicts.refused) fmt::print("{}\n", line);
-    fmt::print("{} certificates verified, {} refused{}\n", verdicts.verified,
-               verdicts.refused_count, until);
-  };
-  try {
-    check::verify_certificates(file, verdicts);
-  } catch (const base::InputError&) {
-    print(", before what cannot be read");
-    throw;
-  }
-  print("");
-  return verdicts.refused_count == 0 ? exit_done : exit_measured_wrong;
+  kinds::Verdicts verdicts(file);
+  const bool good = verdicts.of([&] { check::verify_certificates(file, verdicts); });
+  return good ? exit_done : exit_measured_wrong;
 }
 
 // Draws the maps of axes. Returns their path from the page's folder; empty if they are not drawn.
@@ -135,16 +123,11 @@ int run(const CheckOptions& options, check::CheckMode mode, const std::string& c
 
 // Adds an option for each kind by its old name.
 void add_older_spellings(Arguments& command, check::CaseSelection& selection) {
-  const auto add = [&](std::string_view option, std::string& list, std::string_view kind) {
+  for (const kinds::Kind* kind : kinds::checked_kinds()) {
     command
-        .text("--" + std::string(option), list,
-              fmt::format("The same as --with for the kind {} alone", kind))
+        .text("--" + std::string(kind->old_name()), selection.of_one[kind],
+              fmt::format("The same as --with for the kind {} alone", kind->name()))
         .group("Older spellings");
-  };
-  add("narrow", selection.pair, "pair");
-  add("broad", selection.box, "box");
-  for (const kinds::Kind* kind : kinds::kinds()) {
-    add(kind->old_name(), selection.others[kind], kind->name());
   }
 }
 

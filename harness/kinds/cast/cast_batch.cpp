@@ -195,65 +195,34 @@ class CastBatch final : public Batch {
 
 constexpr std::array<std::string_view, 2> cast_tasks = {"counts", "approach"};
 
-class CastKind final : public Kind {
- public:
-  CastKind()
-      : Kind(
-            {.registry = kind_words<CastEntry>,
-             .old_name = "cast",
-             .title = "Moving bodies",
-             .contract = "cast",
-             .legend =
-                 "The tolerance is 1e-9 of the size (float: 1e-4), or the algorithm's own; *near* "
+}  // namespace
+
+const Kind& cast_kind() {
+  static const KindOf<CastEntry> kind(
+      {.registry = kind_words<CastEntry>,
+       .old_name = "cast",
+       .title = "Moving bodies",
+       .contract = "cast",
+       .legend = "The tolerance is 1e-9 of the size (float: 1e-4), or the algorithm's own; *near* "
                  "is a hit where the bodies come within it. *Inexact*: a time of impact that is "
                  "late by more than the bodies move within the tolerance (of those that promise to "
                  "be in time: 1e-14 of the step), or so early that the bodies are further apart "
                  "than the tolerance, or a bound that does not hold.",
-             .tasks = cast_tasks,
-             .draw_number = 4}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<CastEntry>());
-  }
-
-  std::vector<Contestant> contestants(const std::vector<std::string>& names,
-                                      std::span<const Precision> scalars) const override {
-    return contestants_of(
-        *this, registry::entries<CastEntry>(), names, scalars,
-        [](const CastEntry& entry, Precision scalar, std::uint8_t task) {
-          CastSettings settings;
-          settings.scalar = scalar;
-          settings.start = static_cast<StartContact>(task);
-          return offers(entry, settings);
-        },
-        [](const CastEntry&) { return true; });
-  }
-
-  std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
-    return std::make_unique<CastBatch>(family.number, range);
-  }
-
-  std::vector<QueryOption> query_options() const override { return cast_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_cast_questions(input);
-  }
-  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
-    return verify_cast_proofs(proofs, file);
-  }
-
-  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
-                                     const std::filesystem::path&) const override {
-    return cast_sets(table);
-  }
-
- private:
-  std::vector<Family> list_families() const override { return families_of(cast_families()); }
-};
-
-}  // namespace
-
-const Kind& cast_kind() {
-  static const CastKind kind;
+       .tasks = cast_tasks,
+       .draw_number = 4},
+      {.options = cast_options,
+       .read = read_cast_questions,
+       .verify = verify_cast_proofs,
+       .offers =
+           [](const CastEntry& entry, Precision scalar, std::uint8_t task) {
+             CastSettings settings;
+             settings.scalar = scalar;
+             settings.start = static_cast<StartContact>(task);
+             return offers(entry, settings);
+           },
+       .families = [] { return families_of(cast_families()); },
+       .draw = drawn_batch<CastBatch>,
+       .sets = cast_sets});
   return kind;
 }
 

@@ -105,13 +105,9 @@ class MeshQuestions final : public AnswersOf<ConcaveEntry, MeshReply> {
   std::string_view unit() const override { return "m"; }
   std::span<const files::ConcaveCase> pairs() const override { return cases_; }
   std::vector<std::string> of_other_scalar() const override {
-    std::vector<std::string> names;
-    for (const Asked& asked : asked_) {
-      const auto& scalars = asked.entry->scalars;
-      const bool is_left_out = std::ranges::find(scalars, settings_.scalar) == scalars.end();
-      if (is_left_out) names.push_back(asked.entry->info.name);
-    }
-    return names;
+    return names_where([&](const ConcaveEntry& entry) {
+      return std::ranges::count(entry.scalars, settings_.scalar) == 0;
+    });
   }
 
   std::vector<AskFailure> ask(std::size_t contestant) override {

@@ -138,11 +138,7 @@ void write_query_fields(files::CsvWriter& csv, const QueryRowHead& head, const O
     for (const double x : v) csv.field(x);
   }
   for (const std::int32_t count : {outcome.iterations, outcome.support_calls}) {
-    if (count < 0) {
-      csv.field("");
-    } else {
-      csv.field(count);
-    }
+    write_if(csv, count >= 0, count);
   }
 }
 
