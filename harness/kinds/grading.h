@@ -62,6 +62,37 @@ inline process::IsolationLimits batch_limits(double time_limit) {
   return {.item_seconds = time_limit, .failures = 20};
 }
 
+// What a call answered; a crash costs all of its cases.
+template <class Answer, std::size_t most>
+struct CallAnswer {
+  Status status = Status::unsupported;
+  std::array<Answer, most> answers;
+};
+
+// Asks calls of at most so many cases, whose `places` say which these are, in a child process. make_solver() is called
+// there, and gives solve(call, answers); take(place, answer) gets each answer, which has a `status`, in order.
+template <class Answer, std::size_t most, class Call, class MakeSolver, class Take>
+void ask_calls(const std::vector<Call>& calls, double time_limit, const MakeSolver& make_solver,
+               const Take& take) {
+  if (calls.empty()) return;
+  const auto solved = process::isolated_answers<CallAnswer<Answer, most>>(
+      calls.size(), batch_limits(time_limit), [&] {
+        return [&calls, solve = make_solver()](std::size_t k) {
+          CallAnswer<Answer, most> answer;
+          answer.status = Status::ok;
+          solve(calls[k], std::span<Answer>(answer.answers).first(calls[k].places.size()));
+          return answer;
+        };
+      });
+  for (std::size_t k = 0; k < calls.size(); ++k) {
+    for (std::size_t at = 0; at < calls[k].places.size(); ++at) {
+      Answer answer = solved.answers[k].answers[at];
+      if (solved.answers[k].status != Status::ok) answer.status = solved.answers[k].status;
+      take(calls[k].places[at], answer);
+    }
+  }
+}
+
 // The cases that a form is asked for: those that are sampled, or all as they are drawn.
 inline bool is_asked(CaseForm form, std::uint64_t index) {
   return form == CaseForm::as_drawn || is_sampled(index);

@@ -12,7 +12,6 @@
 #include "harness/families/meshes.h"
 #include "harness/kinds/exact_forms.h"
 #include "harness/kinds/grading.h"
-#include "harness/process/isolate.h"
 
 namespace touchstone::kinds {
 
@@ -62,26 +61,15 @@ class TargetCases {
       }
     }
     std::vector<Graded> grades(items_.size());
-    if (calls.empty()) return grades;
-    const auto solved =
-        process::isolated_answers<CallAnswer>(calls.size(), batch_limits(time_limit), [&] {
-          return [&, solve = make_solver()](std::size_t k) {
-            const Call& call = calls[k];
-            CallAnswer answer;
-            answer.status = Status::ok;
+    ask_calls<Answer, cases_of_a_target>(
+        calls, time_limit,
+        [&] {
+          return [&, solve = make_solver()](const Call& call, std::span<Answer> answers) {
             solve((form == CaseForm::as_drawn ? targets_ : others)[call.target],
-                  std::span<const Item>(call.items),
-                  std::span<Answer>(answer.answers).first(call.items.size()));
-            return answer;
+                  std::span<const Item>(call.items), answers);
           };
-        });
-    for (std::size_t k = 0; k < calls.size(); ++k) {
-      for (std::size_t at = 0; at < calls[k].places.size(); ++at) {
-        Answer answer = solved.answers[k].answers[at];
-        if (solved.answers[k].status != Status::ok) answer.status = solved.answers[k].status;
-        grades[calls[k].places[at]] = grade(calls[k].places[at], answer);
-      }
-    }
+        },
+        [&](std::size_t i, const Answer& answer) { grades[i] = grade(i, answer); });
     return grades;
   }
 
@@ -105,15 +93,10 @@ class TargetCases {
   }
 
  private:
-  // A crash costs all cases of a call.
   struct Call {
     std::size_t target;
     std::vector<std::size_t> places;
     std::vector<Item> items;
-  };
-  struct CallAnswer {
-    Status status = Status::unsupported;
-    std::array<Answer, cases_of_a_target> answers;
   };
 
   std::size_t target_of(std::size_t i) const {

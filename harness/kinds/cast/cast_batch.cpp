@@ -22,11 +22,6 @@ using files::CastCase;
 // Cases of one call; a crash costs them all.
 constexpr std::size_t casts_of_a_call = 24;
 
-struct CastCallAnswer {
-  Status status = Status::unsupported;
-  std::array<CastOutcome, casts_of_a_call> outcomes;
-};
-
 struct CastCall {
   double tolerance = 0;  // metres
   std::vector<std::size_t> places;
@@ -34,13 +29,13 @@ struct CastCall {
 };
 
 void solve_call(const CastEntry& entry, const CastSettings& settings, const CastCall& call,
-                CastCallAnswer& answer) {
+                std::span<CastOutcome> outcomes) {
   std::vector<const CastCase*> cases;
   for (const CastParts& parts : call.parts) cases.push_back(&parts[0]);
-  process::solve_casts(entry, settings, cases, std::span(answer.outcomes).first(cases.size()));
+  process::solve_casts(entry, settings, cases, outcomes);
   if (call.parts[0].size() == 1) return;
   // Contact is in the first half or in the second.
-  CastOutcome& outcome = answer.outcomes[0];
+  CastOutcome& outcome = outcomes[0];
   double offset = 0;
   if (outcome.answer == CastAnswer::miss) {
     outcome = process::solve_cast(entry, settings, call.parts[0][1]);
@@ -76,28 +71,19 @@ class CastBatch final : public Batch {
     std::vector<Graded> grades(cases_.size());
     const bool approach = static_cast<StartContact>(contestant.task) == StartContact::approach;
     if (approach && (form == CaseForm::reversed || form == CaseForm::split)) return grades;
-    const std::vector<CastCall> calls = calls_of(contestant, form);
-    if (calls.empty()) return grades;
     const auto& entry = contestant.of<CastEntry>();
-    const auto solved =
-        process::isolated_answers<CastCallAnswer>(calls.size(), batch_limits(time_limit), [&] {
-          return [&](std::size_t k) {
+    ask_calls<CastOutcome, casts_of_a_call>(
+        calls_of(contestant, form), time_limit,
+        [&] {
+          return [&](const CastCall& call, std::span<CastOutcome> outcomes) {
             CastSettings settings = settings_of(contestant);
-            settings.tolerance = calls[k].tolerance;
-            CastCallAnswer answer;
-            answer.status = Status::ok;
-            solve_call(entry, settings, calls[k], answer);
-            return answer;
+            settings.tolerance = call.tolerance;
+            solve_call(entry, settings, call, outcomes);
           };
+        },
+        [&](std::size_t i, const CastOutcome& outcome) {
+          grades[i] = grade(contestant, i, outcome, form);
         });
-    for (std::size_t k = 0; k < calls.size(); ++k) {
-      const Status status = solved.answers[k].status;
-      for (std::size_t i = 0; i < calls[k].places.size(); ++i) {
-        CastOutcome outcome = solved.answers[k].outcomes[i];
-        if (status != Status::ok) outcome.status = status;
-        grades[calls[k].places[i]] = grade(contestant, calls[k].places[i], outcome, form);
-      }
-    }
     return grades;
   }
 
@@ -180,11 +166,11 @@ class CastBatch final : public Batch {
     const bool is_silent = graded.grade == Grade::missed || graded.grade == Grade::false_hit ||
                            graded.grade == Grade::inexact;
     if (!is_silent || !rounds(cases_[i], form)) return graded;
-    CastCallAnswer answer;
+    CastOutcome answer;
     const FormNumbers numbers(range_.seed, range_.first + i);
     solve_call(*registry::find<CastEntry>("exact"), {},
-               {0, {i}, {parts_in_form(cases_[i], numbers, form)}}, answer);
-    return grade_cast(outcome, answer.outcomes[0], asked, in_time, *truths_);
+               {0, {i}, {parts_in_form(cases_[i], numbers, form)}}, {&answer, 1});
+    return grade_cast(outcome, answer, asked, in_time, *truths_);
   }
 
   const DrawnFamily<CastCase>& family_;

@@ -14,12 +14,6 @@
 namespace touchstone::kinds {
 namespace {
 
-// A crash costs all queries of a call.
-struct FeatureCallAnswer {
-  Status status = Status::unsupported;
-  std::array<CcdOutcome, queries_of_a_call> outcomes;
-};
-
 struct FeatureCall {
   Lengths lengths;
   std::vector<std::size_t> places;
@@ -161,26 +155,16 @@ class FeatureBatch final : public Batch {
   std::vector<CcdOutcome> solve(const CcdEntry& entry, const std::vector<FeatureCall>& calls,
                                 double time_limit) const {
     std::vector<CcdOutcome> outcomes;
-    if (calls.empty()) return outcomes;
-    const auto solved =
-        process::isolated_answers<FeatureCallAnswer>(calls.size(), batch_limits(time_limit), [&] {
-          return [&](std::size_t k) {
-            FeatureCallAnswer answer;
-            answer.status = Status::ok;
-            const std::size_t count = calls[k].queries.size();
-            const Lengths& lengths = calls[k].lengths;
+    ask_calls<CcdOutcome, queries_of_a_call>(
+        calls, time_limit,
+        [&] {
+          return [&](const FeatureCall& call, std::span<CcdOutcome> answers) {
+            const Lengths& lengths = call.lengths;
             entry.make({.tolerance = lengths.tolerance, .separation = lengths.separation})
-                ->solve(family_.pair, calls[k].queries, std::span(answer.outcomes).first(count));
-            return answer;
+                ->solve(family_.pair, call.queries, answers);
           };
-        });
-    for (std::size_t k = 0; k < calls.size(); ++k) {
-      for (std::size_t i = 0; i < calls[k].queries.size(); ++i) {
-        CcdOutcome outcome = solved.answers[k].outcomes[i];
-        if (solved.answers[k].status != Status::ok) outcome.status = solved.answers[k].status;
-        outcomes.push_back(outcome);
-      }
-    }
+        },
+        [&](std::size_t, const CcdOutcome& outcome) { outcomes.push_back(outcome); });
     return outcomes;
   }
 

@@ -138,14 +138,11 @@ class CountedCases {
 }  // namespace
 
 void VerdictCount::add(const VerdictCount& other) {
-  pairs += other.pairs;
-  separated += other.separated;
-  touching += other.touching;
-  overlapping += other.overlapping;
-  unresolved += other.unresolved;
-  silent += other.silent;
-  honest += other.honest;
-  lost += other.lost;
+  for (const auto count : {&VerdictCount::pairs, &VerdictCount::separated, &VerdictCount::touching,
+                           &VerdictCount::overlapping, &VerdictCount::unresolved,
+                           &VerdictCount::silent, &VerdictCount::honest, &VerdictCount::lost}) {
+    this->*count += other.*count;
+  }
   if (first_wrong < 0) first_wrong = other.first_wrong;
 }
 

@@ -157,19 +157,16 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
 
 std::vector<QueryOption> pair_options() {
   using Value = QueryOption::Value;
-  std::vector<QueryOption> options = pair_case_options();
-  const std::vector<QueryOption> further = {
-      option::scalar,
-      option::tolerance,
-      {.name = "--duality-gap",
-       .value = Value::positive,
-       .help = "Stop a distance by the absolute duality gap of its square instead (square metres)",
-       .excludes = "--tolerance"},
-      {"--margin", Value::not_negative, "Bodies further apart than this get no distance (metres)"},
-      option::max_iterations,
-      option::saved};
-  options.insert(options.end(), further.begin(), further.end());
-  return options;
+  return pair_case_options(
+      {option::scalar,
+       option::tolerance,
+       {.name = "--duality-gap",
+        .value = Value::positive,
+        .help = "Stop a distance by the absolute duality gap of its square instead (square metres)",
+        .excludes = "--tolerance"},
+       {"--margin", Value::not_negative, "Bodies further apart than this get no distance (metres)"},
+       option::max_iterations,
+       option::saved});
 }
 
 std::unique_ptr<Questions> read_pair_questions(const QuestionInput& input) {
