@@ -10,6 +10,7 @@
 #include "harness/check/check_job.h"
 #include "harness/grade/graded_answer.h"
 #include "harness/grade/margins.h"
+#include "harness/process/child_process.h"
 #include "harness/process/limited_query.h"
 
 namespace touchstone::check {
@@ -54,13 +55,16 @@ class AxisJob {
     const std::vector<Outcome> outcomes =
         process::ask_limited(algorithm, {.scalar = scalar}, queries, limits);
     double worst = -1;  // badness
+    std::size_t lost = 0;
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (process::is_not_asked(outcomes[i])) {
-        ++row.skipped;
-      } else {
+      lost += process::is_lost(outcomes[i].status) ? 1 : 0;
+      if (!process::is_not_asked(outcomes[i])) {
         add_to(row, *of[i], outcomes[i], worst);
+      } else if (lost >= most_lost) {  // otherwise a peer refused it
+        ++row.skipped;
       }
     }
+    if (row.answers() == 0) return;
     row.margin = as_written(row.margin);
     row.error = as_written(row.error);
     result_.rows<AxisCount>().push_back(row);

@@ -31,7 +31,7 @@ constexpr std::string_view canary_flag = "canary";
 
 bool is_failure(std::optional<record::RowStatus> status) {
   return status == record::RowStatus::crashed || status == record::RowStatus::timed_out ||
-         status == record::RowStatus::wrong;
+         status == record::RowStatus::garbage || status == record::RowStatus::wrong;
 }
 
 // Leaves out the contestants that have checks alone, if their algorithms were timed on executors that
