@@ -28,6 +28,7 @@ struct Listed {
   std::string tolerance = {};  // what a tolerance limits
   const AlgorithmInfo* info = nullptr;
   std::string_view kind = {};
+  bool is_adapter = false;  // it is no entry: --peer makes it one
 };
 
 // Returns "box, pair, ...".
@@ -109,7 +110,7 @@ std::vector<Listed> algorithms_of(std::string_view kind) {
     }
     for (const auto& [of, info] : adapter_versions()) {
       if (of == kind_words<Entry>.word)
-        all.push_back({.tasks = "", .scalars = "", .info = &info, .kind = of});
+        all.push_back({.tasks = "", .scalars = "", .info = &info, .kind = of, .is_adapter = true});
     }
   });
   return all;
@@ -155,6 +156,7 @@ std::string as_table(const std::vector<Listed>& all) {
   for (const Listed& row : all) {
     std::string about =
         is_built(*row.info) ? row.info->citation : "not built, because " + row.info->reason;
+    if (row.is_adapter) about = row.info->reason + "; " + row.info->citation;
     if (is_built(*row.info) && !row.info->lacking.empty()) about += "; " + row.info->lacking;
     if (!row.tolerance.empty()) about += "; tolerance: " + row.tolerance;
     if (!row.info->known_defect.empty()) about += " (known defect: " + row.info->known_defect + ")";
