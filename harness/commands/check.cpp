@@ -1,6 +1,7 @@
 // touchstone check: grades every algorithm against exact answers, on hard cases, along axes to its
 // limits, or by the million.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "harness/check/check_job.h"
 #include "harness/check/check_run.h"
 #include "harness/check/select_cases.h"
+#include "harness/check/versions.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures.h"
@@ -125,6 +127,17 @@ std::string draw_maps(const std::filesystem::path& out, const std::string& page)
   return std::filesystem::absolute(out / "figures").lexically_relative(folder).string();
 }
 
+// The versions of libraries of which several were asked.
+std::string text_of(const check::VersionReport& versions) {
+  if (versions.is_empty()) return "";
+  return fmt::format(
+      "\nVersions over the same cases. Wrong: on the other side of contact, or a number off, by "
+      "more "
+      "than {:g} of the size.\n{}{}\nRows in versions.csv and version_changes.csv\n",
+      check::wrong_share, versions.table().text(base::page_width()),
+      fmt::join(versions.since(), "\n"));
+}
+
 // `command` is said to have made the page.
 int run(const CheckOptions& options, check::CheckMode mode, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
@@ -149,11 +162,13 @@ int run(const CheckOptions& options, check::CheckMode mode, const std::string& c
   }
   const check::CheckReport report = check::run_check(request);
   if (report.interrupted) return end_interrupted();
+  check::VersionReport versions;
+  if (mode == check::CheckMode::cases) versions = check::compare_versions(request);
   print_summary(
       request.out,
-      fmt::format("{}\nRows in {} and families.csv of {}; case files of what is wrong in {}\n",
-                  check::summary_text(report, base::page_width()), names_of(mode).rows,
-                  request.out.string(), (request.out / "failures").string()));
+      fmt::format("{}{}\nRows in {} and families.csv of {}; case files of what is wrong in {}\n",
+                  check::summary_text(report, base::page_width()), text_of(versions),
+                  names_of(mode).rows, request.out.string(), (request.out / "failures").string()));
   const std::string maps = has_axes ? draw_maps(request.out, options.page) : "";
   if (!options.page.empty()) {
     files::write_text(options.page, check::page_text(report, command, maps));

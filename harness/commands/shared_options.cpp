@@ -12,6 +12,7 @@
 #include "harness/base/names.h"
 #include "harness/commands/commands.h"
 #include "harness/files/text_file.h"
+#include "harness/peer/adapters.h"
 #include "harness/peer/peer.h"
 #include "harness/record/build_info.h"
 #include "harness/record/folder_files.h"
@@ -87,13 +88,18 @@ Option add_peer(Arguments& command, std::vector<std::string>& peers) {
   return command
       .texts("--peer", peers,
              "Also ask a program behind a pipe (results/peer_protocol.md): its command, or an "
-             "adapter of datasets/adapters, NAME or NAME@VERSION; it may stand several times")
+             "adapter of datasets/adapters, NAME, NAME@VERSION or NAME@all; it may stand several "
+             "times")
       .once_each();
 }
 
 std::string start_peers(const std::vector<std::string>& peers) {
   std::string names;
-  for (const std::string& named : peers) names = joined_names(names, peer::add(named));
+  for (const std::string& named : peers) {
+    for (const std::string& one : peer::named_versions(named)) {
+      names = joined_names(names, peer::add(one));
+    }
+  }
   return names;
 }
 

@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "harness/base/error.h"
 #include "harness/files/toml_table.h"
@@ -23,6 +25,25 @@ std::string with_version(std::string text, const std::string& version) {
     at += version.size();
   }
   return text;
+}
+
+// The adapter that is named, and what stands behind '@'; no adapter if it is a command.
+std::pair<std::optional<Adapter>, std::string> adapter_of(const std::string& named) {
+  const std::size_t at = named.find('@');
+  const std::string name = named.substr(0, at);
+  const std::string version = at == std::string::npos ? "" : named.substr(at + 1);
+  if (fs::exists(fs::path(name) / "peer.toml")) {
+    return {read_adapter((fs::path(name) / "").lexically_normal().parent_path()), version};
+  }
+  for (Adapter& adapter : adapters()) {
+    if (adapter.name == name) return {std::move(adapter), version};
+  }
+  return {std::nullopt, version};
+}
+
+[[noreturn]] void throw_not_installed(const std::string& named, const AdapterVersion& version) {
+  throw base::InputError(
+      fmt::format("--peer {}: is not installed; expected it after `{}`", named, version.install));
 }
 
 }  // namespace
@@ -63,19 +84,21 @@ std::vector<Adapter> adapters() {
   return all;
 }
 
-Program program_of(const std::string& named) {
-  const std::size_t at = named.find('@');
-  const std::string name = named.substr(0, at);
-  const std::string version = at == std::string::npos ? "" : named.substr(at + 1);
-  std::vector<Adapter> known;
-  if (fs::exists(fs::path(name) / "peer.toml")) {
-    known.push_back(read_adapter((fs::path(name) / "").lexically_normal().parent_path()));
-  } else {
-    known = adapters();
-    std::erase_if(known, [&](const Adapter& adapter) { return adapter.name != name; });
+std::vector<std::string> named_versions(const std::string& named) {
+  const auto [adapter, version] = adapter_of(named);
+  if (!adapter || version != "all") return {named};
+  std::vector<std::string> names;
+  for (const AdapterVersion& one : adapter->versions) {
+    if (one.is_installed) names.push_back(named.substr(0, named.find('@') + 1) + one.version);
   }
-  if (known.empty()) return {.command = named, .folder = {}};
-  const Adapter& adapter = known.front();
+  if (names.empty()) throw_not_installed(named, adapter->versions.back());
+  return names;
+}
+
+Program program_of(const std::string& named) {
+  const auto [found, version] = adapter_of(named);
+  if (!found) return {.command = named, .folder = {}};
+  const Adapter& adapter = *found;
   std::vector<AdapterVersion> chosen = adapter.versions;
   if (!version.empty()) {
     std::erase_if(chosen, [&](const AdapterVersion& one) { return one.version != version; });
@@ -88,10 +111,7 @@ Program program_of(const std::string& named) {
   }
   const auto latest = std::find_if(chosen.rbegin(), chosen.rend(),
                                    [](const AdapterVersion& one) { return one.is_installed; });
-  if (latest == chosen.rend()) {
-    throw base::InputError(fmt::format("--peer {}: is not installed; expected it after `{}`", named,
-                                       chosen.back().install));
-  }
+  if (latest == chosen.rend()) throw_not_installed(named, chosen.back());
   return {.command = latest->command, .folder = adapter.folder};
 }
 

@@ -30,6 +30,10 @@ Adapter read_adapter(const std::filesystem::path& folder);
 // Those of datasets/adapters, in the order of their names.
 std::vector<Adapter> adapters();
 
+// NAME@VERSION for each version that is installed where NAME@all is named, and else the name alone. Throws
+// base::InputError if none is installed.
+std::vector<std::string> named_versions(const std::string& named);
+
 // What --peer names: an adapter, in the latest version that is installed or the one behind '@', or else a command.
 // Throws base::InputError for an adapter that is not installed, with the line that installs it.
 Program program_of(const std::string& named);

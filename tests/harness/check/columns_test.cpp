@@ -1,5 +1,6 @@
 // Tests that the columns of checks are documented.
 #include "harness/check/check_rows.h"
+#include "harness/check/versions.h"
 #include "tests/harness/columns_page.h"
 
 namespace touchstone {
@@ -7,6 +8,11 @@ namespace {
 
 TEST(Columns, OfChecksAreDocumented) {
   expect_documented("summary.csv", record::column_docs<check::SummaryRow>(check::CheckSubjects{}));
+}
+
+TEST(Columns, OfVersionsAreDocumented) {
+  expect_documented("versions.csv", record::column_docs<check::VersionCount>());
+  expect_documented("version_changes.csv", record::column_docs<check::VersionChange>());
 }
 
 TEST(Columns, OfFamiliesAreDocumented) {

@@ -140,6 +140,74 @@ TEST_F(Peers, AreGradedByWhatTheyAnsweredElsewhere) {
   EXPECT_EQ(rows("live"), rows("elsewhere"));
 }
 
+// An adapter of a library whose sign is wrong in some versions.
+class Adapters : public Peers {
+ protected:
+  Adapters() {
+    std::filesystem::create_directory(path("lib"));
+    files::write_text(path("lib/peer.sh"),
+                      "case $1 in 1.*) fault=wrong-sign;; *) fault=none;; esac\n"
+                      "exec python3 " +
+                          std::string(project_folder) +
+                          "/tests/harness/peer/hostile.py $fault 0 lib $1\n");
+    files::write_text(path("lib/peer.toml"), R"(about = "A library"
+licence = "MIT"
+kinds = ["pair"]
+command = "sh peer.sh {version}"
+install = "install lib {version}"
+installed = "lib-{version}"
+versions = ["1.0", "1.10", "2.0", "3.0"]
+settings = "None."
+lacks = "Most."
+)");
+    for (const char* version : {"1.0", "1.10", "2.0"}) {
+      files::write_text(path(std::string("lib/lib-") + version), "");
+    }
+  }
+};
+
+TEST_F(Adapters, AreAskedInTheLatestVersionThatIsInstalled) {
+  const Ran asked = run_program("query " + pairs() + " --with none --peer " + path("lib"));
+  EXPECT_EQ(asked.status, 0) << asked.text;
+  EXPECT_THAT(asked.text, HasSubstr("lib@2.0                      separated"));
+  const std::string pairs = "query " + this->pairs() + " --peer " + path("lib");
+  expect_refusal(pairs + "@3.0", "is not installed; expected it after `install lib 3.0`", folder);
+  expect_refusal(pairs + "@4.0", "found the version '4.0'; expected one of 1.0, 1.10, 2.0, 3.0",
+                 folder);
+}
+
+TEST_F(Adapters, TellInWhichVersionAnswersChanged) {
+  ran = run_program("check --groups gap,depth --cases 100 --peer " + path("lib") + "@all --out " +
+                    path("out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("lib double, from 1.10 to 2.0: "));
+  EXPECT_THAT(ran.text, Not(HasSubstr("from 1.0 to 1.10")));
+  std::vector<std::string> versions;
+  for (const auto& row :
+       read_rows(path("out/versions.csv"), {"version", "answers", "wrong", "group"})) {
+    if (row[3] != "gap") continue;
+    versions.push_back(row[0]);
+    EXPECT_GT(std::stoi(row[1]), 10);
+    EXPECT_EQ(std::stoi(row[2]) > 0, row[0] != "2.0") << row[0];
+  }
+  EXPECT_THAT(versions, ElementsAre("1.0", "1.10", "2.0"));
+  int changes = 0, right = 0;
+  for (const auto& row :
+       read_rows(path("out/version_changes.csv"), {"from", "to", "became", "exact"})) {
+    EXPECT_THAT(row, ElementsAre("1.10", "2.0", ::testing::AnyOf("right", "other"), ::testing::_));
+    ++changes;
+    right += row[2] == "right" ? 1 : 0;
+  }
+  EXPECT_GT(right, 0);
+  EXPECT_GT(changes, right) << "tiny gaps are no gross errors";
+}
+
+TEST_F(Adapters, FaultsOfTheirFilesHaveTheirPlace) {
+  files::write_text(path("lib/peer.toml"), "about = \"A library\"\nlicence = 3\n");
+  expect_refusal("query " + pairs() + " --peer " + path("lib"), "peer.toml:2: licence: found 3",
+                 folder);
+}
+
 TEST_F(Peers, WrongRequestsAreRefused) {
   const std::string pairs = "query " + this->pairs() + " ";
   expect_refusal(pairs + "--peer /nowhere/at-all", "the program left with status 127", folder);

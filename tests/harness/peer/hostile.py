@@ -34,8 +34,10 @@ if fault == "silent-start":
 if fault == "no-json":
     say("hello\n")
     sys.exit(0)
-say(json.dumps({"protocol": 1, "name": "hostile-" + fault, "kinds": {
-    "pair": {"tasks": ["distance"], "shapes": ["sphere"]}}}) + "\n")
+hello = {"protocol": 1, "name": "hostile-" + fault, "kinds": {"pair": {"tasks": ["distance"], "shapes": ["sphere"]}}}
+if len(sys.argv) > 3:
+    hello["name"], hello["version"] = sys.argv[3:]
+say(json.dumps(hello) + "\n")
 for number, line in enumerate(sys.stdin):
     reply = json.dumps(answer(json.loads(line))) + "\n"
     if number < first or fault == "none":
