@@ -2,7 +2,9 @@
 import { plus, quaternionOf, rotated, serve, times, unit } from '../lines.mjs';
 
 const version = process.argv[2];
-const loaded = await import('rapier-' + version);
+// Some versions name a file as their main one that Node.js takes for another kind of module.
+const loaded = await import('rapier-' + version)
+  .catch(() => import(`./node_modules/rapier-${version}/rapier.es.js`));
 const rapier = loaded.default?.init ? loaded.default : loaded;
 await rapier.init();
 

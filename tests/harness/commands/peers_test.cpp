@@ -120,6 +120,27 @@ TEST_F(Peers, FaultsBecomeRowsAndTheWorkGoesOn) {
   EXPECT_THAT(statuses("fork-bomb"), ElementsAre("ok", "ok", "ok"));
 }
 
+TEST_F(Peers, ARunGradesThemWithoutTimes) {
+  const std::string scene = std::string(project_folder) + "/datasets/mixed.toml";
+  ran = run_program(
+      "run --scene " + scene +
+      " --count 100 --frames 1 --broad none --concave none --narrow gjk --scalar double "
+      "--task distance --seconds 0.2 " +
+      python() + " --out " + path("run"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  int graded = 0, of_gjk = 0;
+  for (const auto& row : read_rows(path("run/raw.csv"), {"narrow", "kind", "seconds", "pair_kind",
+                                                         "compared", "allocations"})) {
+    of_gjk += row[0] == "gjk" && row[1] == "sample" ? 1 : 0;
+    if (row[0] != "spheres-in-python@1.0") continue;
+    EXPECT_EQ(row[1], "check") << "a sample of a peer";
+    EXPECT_EQ(row[2] + row[5], "") << "its time has the pipe in it";
+    graded += row[3] == "sphere-sphere" && row[4] != "" && row[4] != "0" ? 1 : 0;
+  }
+  EXPECT_GT(of_gjk, 0);
+  EXPECT_EQ(graded, 1);
+}
+
 TEST_F(Peers, AreGradedByWhatTheyAnsweredElsewhere) {
   const std::string same = "check --groups gap,depth --cases 20 --seed 5 ";
   const Ran wrote = run_program(same + "--export " + path("questions.jsonl"));
