@@ -120,6 +120,38 @@ TEST_F(Peers, FaultsBecomeRowsAndTheWorkGoesOn) {
   EXPECT_THAT(statuses("fork-bomb"), ElementsAre("ok", "ok", "ok"));
 }
 
+TEST_F(Peers, AnswerRaysPointsAndCasts) {
+  const std::string further =
+      "--peer 'python3 " + std::string(project_folder) + "/tests/harness/peer/further_kinds.py'";
+  files::write_text(path("mesh.off"), "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n");
+  files::write_text(path("points.csv"), "x,y,z\n0.25,0.25,-2\n-1,0,0\n");
+  const std::string with = " --with exact " + further;
+  ran = run_program("query " + path("points.csv") + " --in " + path("mesh.off") + with +
+                    " --task closest --out " + path("points.out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(read_rows(path("points.out"), {"algorithm", "distance", "status"}),
+              ElementsAre(ElementsAre("exact", "2", "ok"), ElementsAre("further@1", "2", "ok"),
+                          ElementsAre("exact", "1", "ok"), ElementsAre("further@1", "1", "ok")));
+  ran = run_program(
+      "check --regimes rays-face,rays-vertex,rays-in-plane,points-off-1e-3,casts-pass-1e-1 "
+      "--scalar double --cases 15 " +
+      further + " --out " + path("out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  std::map<std::string, int> right, others;  // by family
+  for (const auto& row :
+       read_rows(path("out/families.csv"), {"family", "form", "right", "cases", "failed"})) {
+    EXPECT_EQ(row[4], "0") << row[0];
+    if (row[1] != "as drawn") continue;
+    right[row[0]] += std::stoi(row[2]);
+    others[row[0]] += std::stoi(row[3]) - std::stoi(row[2]);
+  }
+  EXPECT_EQ(right["rays-face"], 30) << "of both tasks";
+  EXPECT_EQ(right["points-off-1e-3"], 15);
+  EXPECT_GT(right["casts-pass-1e-1"], 0) << "of spheres";
+  EXPECT_EQ(others["casts-pass-1e-1"], 0);
+  EXPECT_GT(others["rays-vertex"] + others["rays-in-plane"], 0) << "rounding decides there";
+}
+
 TEST_F(Peers, ARunGradesThemWithoutTimes) {
   const std::string scene = std::string(project_folder) + "/datasets/mixed.toml";
   ran = run_program(
