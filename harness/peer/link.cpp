@@ -74,8 +74,17 @@ double known_number(const files::JsonNode& answer, const char* key) {
 }
 
 Vec3d known_vector(const files::JsonNode& answer, const char* key) {
-  if (!is_known(answer, key)) return Vec3d::Constant(Outcome::none);
-  return answer.at(key, "").vector();
+  Vec3d vector = Vec3d::Constant(Outcome::none);
+  if (!is_known(answer, key)) return vector;
+  const files::JsonNode node = answer.at(key, "");
+  if (!node.value().is_array() || node.size() != 3) {
+    node.fail(fmt::format("found {}; expected an array of 3 numbers", node.found()));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const files::JsonNode part = node[static_cast<std::size_t>(i)];
+    if (!part.value().is_null()) vector[i] = part.number();
+  }
+  return vector;
 }
 
 std::int32_t known_count(const files::JsonNode& answer, const char* key) {

@@ -40,7 +40,8 @@ void ask(Link& link, std::string_view before, std::size_t count,
          const std::function<files::OrderedJson(std::size_t)>& question,
          const std::function<void(std::size_t, const files::JsonNode&)>& take);
 
-// --- values of answers; what is missing or null is not known. All throw base::InputError. ---
+// --- values of answers; what is missing or null is not known, as may be parts of a vector, since JavaScript writes NaN
+// as null. All throw base::InputError. ---
 
 // NaN if it is not known. "inf" and "-inf" are numbers.
 double known_number(const files::JsonNode& answer, const char* key);

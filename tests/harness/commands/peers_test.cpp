@@ -181,6 +181,11 @@ TEST_F(Peers, AreGradedByWhatTheyAnsweredElsewhere) {
                       path("answers.jsonl"))
                 .status,
             0);
+  const Ran asked =
+      run_program("query " + path("questions.jsonl") + " --with gjk --out " + path("gjk.csv"));
+  EXPECT_EQ(asked.status, 0) << asked.text;
+  EXPECT_THAT(asked.text, Not(HasSubstr("warning")));
+  EXPECT_GT(read_rows(path("gjk.csv"), {"id"}).size(), 1000U) << "questions are cases";
   const Ran live = run_program(same + "--scalar double " + python() + " --out " + path("live"));
   const Ran graded = run_program(same + "--scalar double --answers " + path("answers.jsonl") +
                                  " --out " + path("elsewhere"));
