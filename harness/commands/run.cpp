@@ -53,7 +53,24 @@ struct RunOptions {
   std::string plan;
   std::int64_t shard = -1;
   double depth_error = stats::usual_depth_error;
+  std::vector<std::string> peers;
 };
+
+// Adds the peers to every group that asks narrow phases, in each of their scalars. They are graded, and not timed.
+void add_peers(const std::string& names, campaign::Campaign& campaign) {
+  if (names.empty()) return;
+  for (const NarrowPhaseEntry* entry : kinds::select(registry::entries<NarrowPhaseEntry>(),
+                                                     kinds::split_names(names), "narrow phase")) {
+    for (campaign::CampaignGroup& group : campaign.groups) {
+      const bool has_it = std::ranges::find(group.narrow, entry, &measure::NarrowChoice::entry) !=
+                          group.narrow.end();
+      if (group.narrow.empty() || has_it) continue;
+      for (const Precision scalar : entry->scalars) {
+        group.narrow.push_back({entry, {.scalar = scalar}, false, measure::usual_batch});
+      }
+    }
+  }
+}
 
 campaign::Campaign campaign_of(const RunOptions& options) {
   if (options.scenes.empty()) {
@@ -162,7 +179,7 @@ record::FolderStart start_of(const RunOptions& options) {
 // Runs another file than a campaign, which the other executable does.
 int run_other_file(const RunOptions& options) {
   if (options.overwrite || options.strict || options.noisy || options.dry_run || options.tables ||
-      options.quick) {
+      options.quick || !options.peers.empty()) {
     throw base::InputError(
         options.campaign +
         " is no campaign of scenes; expected no options but --out, --resume, --threads and "
@@ -228,7 +245,9 @@ int run(const RunOptions& options) {
     throw base::InputError(
         "--threads belongs to --scene or --plan; expected it in the campaign's file");
   }
+  const std::string peers = start_peers(options.peers);
   campaign::Campaign campaign = campaign_of(options);
+  add_peers(peers, campaign);
   if (options.quick) make_quick(campaign);
   const std::filesystem::path folder = results_folder(options.out, campaign.name);
   if (options.dry_run) {
@@ -274,6 +293,7 @@ void add_run(Arguments command) {
                "Take few samples, of at most 4 frames and 3,000 generated bodies where the "
                "campaign names more, for a first look");
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
+  add_peer(command, options->peers).excludes(command.option("--plan"));
 
   const std::string one = "Instead of a campaign file";
   const Option scene =

@@ -12,6 +12,8 @@
 #include "harness/base/names.h"
 #include "harness/commands/commands.h"
 #include "harness/files/text_file.h"
+#include "harness/peer/adapters.h"
+#include "harness/peer/peer.h"
 #include "harness/record/build_info.h"
 #include "harness/record/folder_files.h"
 
@@ -80,6 +82,29 @@ Option add_depth_error(Arguments& command, double& error) {
 
 Option add_threads(Arguments& command, int& threads, const std::string& help) {
   return command.number("--threads", threads, help).within(1, 1024).show_default();
+}
+
+Option add_peer(Arguments& command, std::vector<std::string>& peers) {
+  return command
+      .texts("--peer", peers,
+             "Also ask a program behind a pipe (results/peer_protocol.md): its command, or an "
+             "adapter of datasets/adapters, NAME, NAME@VERSION or NAME@all; it may stand several "
+             "times")
+      .once_each();
+}
+
+std::string start_peers(const std::vector<std::string>& peers) {
+  std::string names;
+  for (const std::string& named : peers) {
+    for (const std::string& one : peer::named_versions(named)) {
+      names = joined_names(names, peer::add(one));
+    }
+  }
+  return names;
+}
+
+std::string joined_names(const std::string& names, const std::string& further) {
+  return names + (names.empty() || further.empty() ? "" : ",") + further;
 }
 
 Option add_shard(Arguments& command, std::string& plan, std::int64_t& shard) {

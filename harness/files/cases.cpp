@@ -9,7 +9,7 @@ namespace touchstone::files {
 std::vector<Case> read_cases(const std::filesystem::path& file) {
   std::vector<Case> cases;
   KeyWarnings warnings;
-  for_each_json_line(file, "case", [&](const JsonNode& line) {
+  for_each_case(file, [&](const JsonNode& line) {
     read_case(line, cases.emplace_back());
     warnings.look(line);
   });
@@ -19,7 +19,7 @@ std::vector<Case> read_cases(const std::filesystem::path& file) {
 std::vector<CastCase> read_cast_cases(const std::filesystem::path& file) {
   std::vector<CastCase> cases;
   KeyWarnings warnings;
-  for_each_json_line(file, "case", [&](const JsonNode& line) {
+  for_each_case(file, [&](const JsonNode& line) {
     cases.push_back(read_cast_case(line));
     warnings.look(line);
   });

@@ -45,7 +45,7 @@ Contestant contestant_of(const Kind& kind, const Entry& entry, bool promised,
 
 // The grade that the status alone decides, if it does.
 inline std::optional<Grade> grade_of_status(Status status, bool is_unknown) {
-  if (status == Status::crashed || status == Status::timed_out) return Grade::failed;
+  if (process::is_lost(status)) return Grade::failed;
   if (status == Status::unsupported) return Grade::not_asked;
   if (!is_meant(status) || is_unknown) return Grade::gave_up;
   return std::nullopt;

@@ -207,7 +207,7 @@ std::string_view word_of(kinds::Grade grade, Status status, bool is_approximate)
     case kinds::Grade::inexact: return "right";  // the page judges the verdicts of meshes
     case kinds::Grade::missed:
     case kinds::Grade::false_hit: return is_approximate ? "approximate" : "silent";
-    case kinds::Grade::failed: return status == Status::crashed ? "crashed" : "hung";
+    case kinds::Grade::failed: return status == Status::timed_out ? "hung" : "crashed";
     case kinds::Grade::not_asked:
     case kinds::Grade::unresolved:
     case kinds::Grade::gave_up: break;

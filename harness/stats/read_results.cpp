@@ -29,7 +29,7 @@ constexpr std::array<std::int64_t record::RawRow::*, work_count> work_fields = {
 // The noise of a set's last row if the run's baseline and its twin differ significantly.
 bool is_failure(std::optional<record::RowStatus> status) {
   return status == record::RowStatus::crashed || status == record::RowStatus::timed_out ||
-         status == record::RowStatus::wrong;
+         status == record::RowStatus::garbage || status == record::RowStatus::wrong;
 }
 
 // Leaves out the contestants that have checks alone, if their algorithms were timed on executors that

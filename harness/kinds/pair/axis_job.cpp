@@ -11,6 +11,7 @@
 #include "harness/grade/margins.h"
 #include "harness/kinds/pair/axes/axes.h"
 #include "harness/kinds/pair/pair_checkers.h"
+#include "harness/process/child_process.h"
 #include "harness/process/limited_query.h"
 
 namespace touchstone::kinds {
@@ -55,13 +56,16 @@ class AxisJob {
     const std::vector<Outcome> outcomes =
         process::ask_limited(algorithm, {.scalar = scalar}, queries, limits);
     double worst = -1;  // badness
+    std::size_t lost = 0;
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (process::is_not_asked(outcomes[i])) {
-        ++row.skipped;
-      } else {
+      lost += process::is_lost(outcomes[i].status) ? 1 : 0;
+      if (!process::is_not_asked(outcomes[i])) {
         add_to(row, *of[i], outcomes[i], worst);
+      } else if (lost >= most_lost) {  // otherwise a peer refused it
+        ++row.skipped;
       }
     }
+    if (row.answers() == 0) return;
     row.margin = as_written(row.margin);
     row.error = as_written(row.error);
     rows_.of<AxisCount>().push_back(row);

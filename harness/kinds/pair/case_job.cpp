@@ -111,6 +111,10 @@ class PairJob {
     const Outcome* original_outcome = nullptr;
     for (std::size_t i = 0; i < items.size(); ++i) {
       const Outcome& outcome = solved.answers[i];
+      if (outcome.status == Status::unsupported) {  // a peer may refuse what its kinds allow
+        if (items[i].variant == nullptr) original = nullptr;
+        continue;
+      }
       if (items[i].variant == nullptr) {
         const grade::Query query = {summary_.regime, entry, scalar, items[i].task};
         auto& answers = rows_.of<grade::GradedAnswer>();
@@ -118,7 +122,7 @@ class PairJob {
                                               cases_[items[i].place], outcome));
         original = &answers.back();
         original_outcome = &outcome;
-      } else {
+      } else if (original != nullptr) {
         compare(*original, *original_outcome, *items[i].variant, outcome);
       }
     }

@@ -66,6 +66,7 @@ class CountedCases {
       const Encoding encoding =
           encoding_of(entry, c.shape_a.kind, c.shape_b.kind, Task::intersect, scalar);
       const Outcome& outcome = solved.answers[item];
+      if (outcome.status == Status::unsupported) continue;
       const bool bounds_hold =
           !grade::is_within_resolution(outcome) || !(bounds_error(i, encoding, outcome) > 0);
       count_one(outcome, truth(i, encoding), bounds_hold, first_ + static_cast<std::int64_t>(i),
@@ -117,7 +118,7 @@ class CountedCases {
         ++count.silent;
         break;
       case grade::Verdict::unscored: return;
-      case grade::Verdict::unsupported:
+      case grade::Verdict::unsupported: return;
       case grade::Verdict::honest_failure: ++count.honest; return;
       case grade::Verdict::silent_error: ++count.silent; break;
       case grade::Verdict::crashed:

@@ -1,5 +1,6 @@
 // Tests that the columns of checks are documented.
 #include "harness/check/family_checker.h"
+#include "harness/check/versions.h"
 #include "harness/kinds/pair/pair_rows.h"
 #include "tests/harness/columns_page.h"
 
@@ -9,6 +10,11 @@ namespace {
 TEST(Columns, OfChecksAreDocumented) {
   expect_documented("summary.csv", record::column_docs<kinds::SummaryRow>(
                                        kinds::PairRequest(kinds::CheckRequest())));
+}
+
+TEST(Columns, OfVersionsAreDocumented) {
+  expect_documented("versions.csv", record::column_docs<check::VersionCount>());
+  expect_documented("version_changes.csv", record::column_docs<check::VersionChange>());
 }
 
 TEST(Columns, OfFamiliesAreDocumented) {
