@@ -1,4 +1,4 @@
-// What a check does for a kind: the work of its jobs, the rows that they append, and what is told of these.
+// What a check does for a kind: the work of its jobs, the rows that they append, and the report.
 #pragma once
 
 #include <cstddef>

@@ -160,7 +160,7 @@ void add_phase(Contestant& contestant, record::Phase phase, Sample sample, doubl
 // Adds that of a row.
 void add_phase(Contestant& contestant, const record::RawRow& row);
 
-// The flag of a round's noise that says that the baseline differs from its twin; it disturbs no sample.
+// The flag of a round whose baseline differs from its twin; it disturbs no sample.
 inline constexpr std::string_view canary_flag = "canary";
 
 // Returns seconds a frame or a query, for each square: the median over the square's rounds. Noisy

@@ -1,4 +1,4 @@
-// What is told of axes of pairs: the first failures along each, as tables and cases to replay.
+// Reports axes of pairs: the first failures along each, as tables and cases to replay.
 #include <fmt/format.h>
 
 #include <algorithm>

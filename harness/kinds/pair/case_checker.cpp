@@ -1,4 +1,4 @@
-// Graded cases of pairs: their counts, and what is told of them at the terminal and on a page.
+// Counts the graded cases of pairs, and reports them at the terminal and on a page.
 #include <fmt/format.h>
 
 #include <algorithm>

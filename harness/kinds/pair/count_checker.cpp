@@ -1,4 +1,4 @@
-// Counts of verdicts about pairs: the job of a regime, and what is told of the sums.
+// Counts verdicts about pairs: the job of a regime, and the report of the sums.
 #include <fmt/format.h>
 
 #include <array>

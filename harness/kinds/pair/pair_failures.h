@@ -45,7 +45,7 @@ struct WrongQuery {
   std::int64_t index;
 };
 
-// Asks these queries again, whose rows say only where an answer was wrong.
+// Asks these queries again, whose rows have only the places of wrong answers.
 std::vector<grade::GradedAnswer> ask_again(const PairRequest& request,
                                            const std::vector<WrongQuery>& found);
 
