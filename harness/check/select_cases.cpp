@@ -12,6 +12,7 @@
 #include "harness/base/error.h"
 #include "harness/base/nearest_name.h"
 #include "harness/check/axes/axes.h"
+#include "harness/files/cases.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/selection.h"
 
@@ -227,6 +228,41 @@ void select_cases(CaseSelection selection, const std::string& axes, CheckRequest
     throw base::InputError(
         "--count has no cases for these algorithms; expected some of another kind than box");
   }
+}
+
+namespace {
+
+// A regime draws by a plain function, so its cases are here.
+std::vector<files::Case>& cases_of_file() {
+  static std::vector<files::Case> cases;
+  return cases;
+}
+
+RegimeCase case_of_file(RegimeDraw& draw) {
+  const files::Case& c = cases_of_file()[draw.index];
+  return {.pair = c, .detail = c.id};
+}
+
+}  // namespace
+
+void take_case_file(const std::filesystem::path& file, CheckRequest& request) {
+  static Regime regime;
+  regime.name = file.stem().string();
+  regime.group = "file";
+  regime.what = "pairs of a file";
+  regime.extreme = true;
+  regime.draw = case_of_file;
+  cases_of_file() = files::read_cases(file);
+  if (cases_of_file().empty())
+    throw base::InputError(file.string(), 0, "has no case; expected one");
+  if (request.narrow.empty()) {
+    throw base::InputError("FILE has pairs; expected an algorithm of the kind pair");
+  }
+  request.regimes = {&regime};
+  request.families.clear();
+  request.contestants.clear();
+  request.broad.clear();
+  request.cases = static_cast<int>(cases_of_file().size());
 }
 
 }  // namespace touchstone::check

@@ -2,6 +2,7 @@
 // command check, and by files of requests.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <span>
 #include <string>
@@ -36,5 +37,10 @@ std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& n
 // `axes` is a list joined by commas, or empty or "all". Throws InputError for a name that there is not, and for
 // cases that none of the algorithms takes.
 void select_cases(CaseSelection selection, const std::string& axes, CheckRequest& request);
+
+// Takes the pairs of a file in place of regimes and families, as one regime that is called after the file. Of algorithms
+// narrow phases alone remain. Throws InputError for what is wrong in the file (files::read_cases), and if no narrow phase
+// is left. There is one such file in a program.
+void take_case_file(const std::filesystem::path& file, CheckRequest& request);
 
 }  // namespace touchstone::check
