@@ -22,6 +22,7 @@
 #include "harness/commands/pictures.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/text_file.h"
+#include "harness/kinds/pair/pair_request.h"
 #include "harness/peer/peer.h"
 
 namespace touchstone::commands {
@@ -31,7 +32,7 @@ constexpr int quick_cases = 4;
 
 struct CheckOptions {
   check::CaseSelection selection;
-  std::string axes, out, page, certificates, saved, written;
+  std::string file, axes, out, page, certificates, saved, written;
   std::vector<std::string> peers, answers;
   check::CheckRequest common;  // what is the same with and without --axes and --count
   std::optional<int> cases;
@@ -73,6 +74,7 @@ check::CheckRequest request_of(const CheckOptions& options, check::CheckMode mod
   check::CaseSelection selection = options.selection;
   selection.with = joined_names(selection.with, peers);
   check::select_cases(selection, options.axes, request);
+  if (!options.file.empty()) kinds::take_case_file(options.file, request);
   request.out = results_folder(options.out, std::string(names_of(mode).folder));
   return request;
 }
@@ -178,6 +180,8 @@ void add_older_spellings(Arguments& command, check::CaseSelection& selection) {
 void add_check(Arguments command) {
   const auto options = std::make_shared<CheckOptions>();
   check::CheckRequest& common = options->common;
+  const Option file = command.text(
+      "FILE", options->file, "Pairs to grade in place of the regimes, one JSON object a line");
   Option axes = command
                     .text("--axes", options->axes,
                           "Drive one property of a case at a time to its extreme, and find where "
@@ -253,6 +257,11 @@ void add_check(Arguments command) {
   add_older_spellings(command, options->selection);
   command.exclude_others("--certificates");
   axes.excludes(count);
+  for (Option option : {axes, count, cases, command.option("--regimes"), command.option("--groups"),
+                        command.option("--seed"), command.option("--seconds"),
+                        command.option("--save-certificates")}) {
+    option.excludes(file);
+  }
   for (const char* name :
        {"--regimes", "--groups", "--seconds", "--save-certificates", "--broad"}) {
     axes.excludes(command.option(name));

@@ -44,7 +44,13 @@ class ProgramLink final : public Link {
     }
     std::string text(before);
     for (const Question& question : questions) text += question.line;
-    return process_->exchange(text, questions.size());
+    try {
+      return process_->exchange(text, questions.size());
+    } catch (...) {
+      owner_ = -1;  // the next question gets a new program
+      process_.reset();
+      throw;
+    }
   }
 
  private:

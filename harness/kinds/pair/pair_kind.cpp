@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "harness/base/error.h"
+#include "harness/files/cases.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh/mesh_kind.h"
 #include "harness/kinds/pair/axes/axes.h"
@@ -54,6 +56,42 @@ std::vector<const Axis*> PairRequest::axes() const {
     if (list.empty() || list.back() != regime->axis) list.push_back(regime->axis);
   }
   return list;
+}
+
+namespace {
+
+// A regime draws by a plain function, so its cases are here.
+std::vector<files::Case>& cases_of_file() {
+  static std::vector<files::Case> cases;
+  return cases;
+}
+
+RegimeCase case_of_file(RegimeDraw& draw) {
+  const files::Case& c = cases_of_file()[draw.index];
+  return {.pair = c, .detail = c.id};
+}
+
+}  // namespace
+
+void take_case_file(const std::filesystem::path& file, CheckRequest& request) {
+  static Regime regime;
+  static Family family;
+  regime.name = file.stem().string();
+  regime.group = "file";
+  regime.what = "pairs of a file";
+  regime.extreme = true;
+  regime.draw = case_of_file;
+  family = family_of(regime);
+  cases_of_file() = files::read_cases(file);
+  if (cases_of_file().empty())
+    throw base::InputError(file.string(), 0, "has no case; expected one");
+  std::erase_if(request.contestants,
+                [](const Contestant& one) { return one.kind != &pair_kind(); });
+  if (request.contestants.empty()) {
+    throw base::InputError("FILE has pairs; expected an algorithm of the kind pair");
+  }
+  request.families = {&family};
+  request.cases = static_cast<int>(cases_of_file().size());
 }
 
 const Kind& pair_kind() {

@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -38,5 +39,10 @@ struct PairRequest : CheckRequest {
   }
   bool is_ours(std::uint32_t entry) const { return narrow[entry]->info.origin == Origin::ours; }
 };
+
+// Takes the pairs of a file in place of all families, as one regime that is called after the file. Of algorithms
+// narrow phases alone remain. Throws InputError for what is wrong in the file (files::read_cases), and if no narrow phase
+// is left. There is one such file in a program.
+void take_case_file(const std::filesystem::path& file, CheckRequest& request);
 
 }  // namespace touchstone::kinds

@@ -260,6 +260,23 @@ TEST_F(Adapters, TellInWhichVersionAnswersChanged) {
   EXPECT_GT(changes, right) << "tiny gaps are no gross errors";
 }
 
+TEST_F(Adapters, AreComparedOnPairsOfAFile) {
+  ran = run_program("check " + pairs() + " --with exact --peer " + path("lib") + "@all --out " +
+                    path("out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("lib double, from 1.10 to 2.0: 3 answers became right, 0 wrong"));
+  std::map<std::string, int> answers;
+  for (const auto& row : read_rows(path("out/grades.csv"), {"algorithm", "regime"})) {
+    EXPECT_EQ(row[1], "pairs");
+    ++answers[row[0]];
+  }
+  EXPECT_EQ(answers["lib@2.0"], 3);
+  EXPECT_EQ(answers["exact"], 12) << "of four tasks";
+  expect_refusal("check " + pairs() + " --kind ray", "FILE has pairs; expected an algorithm",
+                 folder);
+  expect_refusal("check " + path("absent.jsonl") + " --with gjk", "absent.jsonl", folder);
+}
+
 TEST_F(Adapters, FaultsOfTheirFilesHaveTheirPlace) {
   files::write_text(path("lib/peer.toml"), "about = \"A library\"\nlicence = 3\n");
   expect_refusal("query " + pairs() + " --peer " + path("lib"), "peer.toml:2: licence: found 3",
