@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -79,12 +80,19 @@ void for_each_kind(Visit&& visit) {
 std::optional<KindWords> kind_named(std::string_view word);
 
 // The entries of a kind, in the order of the list. Names are unique within a kind. Defined in the file
-// that CMake writes from registry_list.cpp.in, for each kind.
+// that CMake writes from registry_list.cpp.in, for each kind, as are the next two.
 template <class Entry>
 std::span<const Entry> entries();
 
 // False in the first program, which lists only what the standard comparison measures.
 bool is_whole();
+
+// Adds an entry behind those of the list, such as a program behind a pipe, whose time is no algorithm's. Its name is of
+// no entry of any kind yet. Spans that `entries` returned before lack it. At most `most_added` of a kind; throws
+// std::length_error beyond.
+inline constexpr std::size_t most_added = 64;
+template <class Entry>
+void add_untimed(Entry entry);
 
 // Returns null if no entry has that name.
 template <class Entry>
@@ -97,6 +105,8 @@ const Entry* find(std::string_view name) {
 }  // namespace registry
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
+// False for those of add_untimed: they are graded, and in no table of times.
+bool is_timed(const AlgorithmInfo& info);
 bool offers(const NarrowPhaseEntry& entry, Task task);
 bool offers(const NarrowPhaseEntry& entry, Precision scalar);
 // True if the entry offers the task for these kinds, in either order.

@@ -49,6 +49,7 @@ std::string_view to_string(Status status) {
     case Status::not_reported: return "not_reported";
     case Status::crashed: return "crashed";
     case Status::timed_out: return "timed_out";
+    case Status::garbage: return "garbage";
   }
   return "?";
 }

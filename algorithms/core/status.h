@@ -15,6 +15,7 @@ enum class Status : std::uint8_t {
   not_reported,   // the library cannot report whether it failed
   crashed,        // set by the harness: the query killed its process
   timed_out,      // set by the harness: the query was stopped
+  garbage,        // set by the harness: what a program answered cannot be read
 };
 
 std::string_view to_string(Status status);

@@ -42,13 +42,8 @@ record::RawRow BlockRows::empty(std::size_t c, std::size_t s, std::size_t frame)
 record::RawRow BlockRows::of_sample(const measure::Round& round,
                                     const measure::Sample& sample) const {
   record::RawRow row = empty(sample.contestant, round.set, round.request.frame);
-  row.kind = record::RowKind::sample;
-  row.process = round.process;
-  row.square = round.square;
-  row.round = round.round;
-  row.position = sample.position;
+  note_place(row, round, sample);
   row.frames = round.request.frames;
-  row.noise = round.noise;
   return row;
 }
 
@@ -62,17 +57,8 @@ std::vector<record::RawRow> BlockRows::of_reply(const measure::Round& round,
     row.seconds = duration.seconds;
   }
   record::RawRow& row = rows.back();
-  row.pair_count = reply.pairs;
+  note_counters(row, reply);
   row.worst_frame = reply.worst_frame;
-  row.peak_kb = reply.peak_kb;
-  row.minor_faults = reply.minor_faults;
-  row.voluntary_switches = reply.voluntary_switches;
-  row.involuntary_switches = reply.involuntary_switches;
-  row.waited = reply.waited;
-  row.cycles = reply.hardware.cycles;
-  row.instructions = reply.hardware.instructions;
-  row.branch_misses = reply.hardware.branch_misses;
-  row.cache_misses = reply.hardware.cache_misses;
   if (schedule_.pairs[round.set] == nullptr) {
     row.status = record::row_status(reply.status);
     return rows;
@@ -93,22 +79,17 @@ std::vector<record::RawRow> BlockRows::of_reply(const measure::Round& round,
 record::Departure BlockRows::mark_lost(record::RawRow& row, std::size_t c,
                                        const measure::Loss& loss, const std::string& wrong) const {
   const Candidate& candidate = schedule_.candidates[c];
-  const bool late = !loss.wrong && loss.failure.state == process::ItemState::timed_out;
   std::string where = context_.place(static_cast<std::size_t>(row.frame));
   if (!row.narrow.empty()) where += fmt::format(", {}, {}", row.pair_kind, to_string(*row.task));
   record::Departure departure = context_.departure(candidate.info(), candidate.label(), where);
-  departure.known = late;
+  note_loss(row, loss);
+  departure.known = row.status == record::RowStatus::timed_out;
   departure.what = (loss.wrong ? wrong : loss.failure.reason()) + "; left out from here on";
-  row.status = loss.wrong ? record::RowStatus::wrong
-               : late     ? record::RowStatus::timed_out
-                          : record::RowStatus::crashed;
-  row.words = record::one_line(loss.wrong ? "" : loss.failure.words);
   return departure;
 }
 
 namespace {
 
-constexpr double certainty = 0.95;
 constexpr double shares = 4;  // times its share of the budget, for a set without an interval
 constexpr double slack = 10;  // times its time in the check, until a sample is stopped
 
@@ -261,7 +242,7 @@ void BlockRun::take(measure::Round& round) {
   if (round.stop != measure::Stop::none) {
     record::RawRow& last = all.back().rows.back();
     last.stop = to_string(round.stop);
-    if (control_failed(round.set)) last.noise += last.noise.empty() ? "canary" : "+canary";
+    if (times_[round.set].twin_differs(context_.block->group->width)) note_canary(last);
   }
   for (Taken& taken : all) {
     for (record::RawRow& row : taken.rows) context_.findings->add(std::move(row));
@@ -283,21 +264,11 @@ bool BlockRun::all_narrow(std::size_t set) const {
   const SetTimes& times = times_[set];
   for (const std::string& label : times.labels()) {
     if (label == times.baseline()) continue;
-    const auto interval =
-        stats::median_interval(times.log_ratios(label, times.baseline(), false), certainty);
+    const auto interval = stats::median_interval(times.log_ratios(label, times.baseline(), false),
+                                                 stats::usual_confidence);
     if (!(half_width(interval) <= context_.block->group->width)) return false;
   }
   return true;
-}
-
-// Returns true if the A/A control differs from the baseline by more than the requested width.
-bool BlockRun::control_failed(std::size_t set) const {
-  const SetTimes& times = times_[set];
-  const double width = context_.block->group->width;
-  if (times.baseline().empty()) return false;
-  const auto interval = stats::median_interval(
-      times.log_ratios(SetTimes::twin_of(times.baseline()), times.baseline(), false), certainty);
-  return interval.low > std::log1p(width) || interval.high < -std::log1p(width);
 }
 
 }  // namespace touchstone::campaign

@@ -66,7 +66,6 @@ class BlockRun final : private measure::MeasuringJob {
   const Checked& checked(std::size_t contestant, std::size_t set) const;
   measure::Stop reason_to_stop(const measure::Round& round) const;
   bool all_narrow(std::size_t set) const;
-  bool control_failed(std::size_t set) const;
 
   const RunContext& context_;
   const measure::BlockInput& input_;

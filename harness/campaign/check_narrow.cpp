@@ -131,7 +131,7 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
   double seconds = 0;
   for (const NarrowAnswer& answer : answers.span()) seconds += answer.seconds;
   std::vector<measure::Allocations> allocations(pieces.size());
-  if (report.failures.empty() && seconds < longest_batch_to_count) {
+  if (is_timed(choice.info()) && report.failures.empty() && seconds < longest_batch_to_count) {
     allocations = count_allocations(pieces, choice, limits);
   }
   auto failure = report.failures.begin();
@@ -149,7 +149,7 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
     }
     const NarrowAnswer& answer = answers[item];
     record::RawRow result = row(piece, choice);
-    result.seconds = answer.seconds;
+    if (is_timed(choice.info())) result.seconds = answer.seconds;
     result.contact_count = answer.contacts;
     result.outcome_hash = base::to_hex(answer.outcome_hash);
     result.part_pairs = answer.part_pairs;

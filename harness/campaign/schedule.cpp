@@ -109,7 +109,7 @@ Schedule make_schedule(const RunContext& context, const measure::BlockInput& inp
     const measure::NarrowSet& pairs = narrow[number];
     candidates.clear();
     for (const measure::NarrowChoice* choice : group.choices()) {
-      if (offer(*choice, pairs, input) != measure::Offer::taken ||
+      if (!is_timed(choice->info()) || offer(*choice, pairs, input) != measure::Offer::taken ||
           !context.admits(*choice, pairs.broad, pairs.task, pairs.kind_name())) {
         continue;
       }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/measure/measuring_loop.h"
 #include "harness/record/raw_row.h"
 #include "harness/stats/samples.h"
 
@@ -25,6 +26,8 @@ class SetTimes {
   // Returns all samples that count, in seconds a frame or a query. Rounds with flags count only
   // with `noisy`.
   std::vector<double> times(const std::string& label, bool noisy) const;
+  // Returns true if the A/A control differs from the baseline by more than the width.
+  bool twin_differs(double width) const;
   // Returns log(a / b) of the squares that both were in.
   std::vector<double> log_ratios(const std::string& a, const std::string& b, bool noisy) const;
 
@@ -34,6 +37,13 @@ class SetTimes {
   std::map<std::string, stats::Contestant> contestants_;
   std::string baseline_;
 };
+
+// Write into a row the place of a sample in its round, what its process counted, how it was lost, and that the
+// baseline of its set differs from its twin.
+void note_place(record::RawRow& row, const measure::Round& round, const measure::Sample& sample);
+void note_counters(record::RawRow& row, const measure::SampleReply& reply);
+void note_loss(record::RawRow& row, const measure::Loss& loss);
+void note_canary(record::RawRow& row);
 
 // Returns the half-width of a ratio's interval, as a part of the ratio; NaN if there is no
 // interval.

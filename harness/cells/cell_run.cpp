@@ -199,13 +199,7 @@ class CellRun {
     row.queries = cell.queries;
     row.truth = cell.truth;
     row.graded = cell.graded;
-    row.near = graded.grade.near;
-    row.missed = graded.grade.missed;
-    row.false_hits = graded.grade.false_hits;
-    row.inexact = graded.grade.inexact;
-    row.bound = graded.grade.bound;
-    row.gave_up = graded.grade.gave_up;
-    row.unresolved = graded.grade.unresolved;
+    static_cast<kinds::GradeCount&>(row) = graded.grade;
     row.error = graded.grade.error;
     row.hits = graded.grade.hits;
     row.true_hits = graded.grade.true_hits;

@@ -13,6 +13,7 @@
 #include "harness/base/hash.h"
 #include "harness/cells/read_cells.h"
 #include "harness/grade/answer_check.h"
+#include "harness/kinds/box/broad_check.h"
 #include "harness/kinds/set_keys.h"
 #include "harness/measure/block_input.h"
 
@@ -22,7 +23,7 @@ namespace {
 enum class Question : std::uint8_t { pairs, changes, moved, built };
 constexpr std::array<std::string_view, 4> question_names = {"pairs", "changes", "moved", "built"};
 
-using Pairs = std::vector<IndexPair>;
+using kinds::Pairs;
 
 // A frame, and how it differs from the frame that is played before it.
 struct Frame {
@@ -124,10 +125,13 @@ class LoopPlayer {
       }
       const Pairs &now = loop_->truth_of(i), &before = loop_->truth_before(i);
       if (question_ == Question::changes) {
-        add_faults(i, pairs_, difference(now, before), grade);
-        add_faults(i, ended_, difference(before, now), grade);
+        add_faults(i, pairs_, kinds::without(now, before), grade);
+        add_faults(i, ended_, kinds::without(before, now), grade);
       } else {
-        add_faults(i, pairs_, question_ == Question::moved ? of_fresh(i) : now, grade);
+        add_faults(
+            i, pairs_,
+            question_ == Question::moved ? kinds::pairs_of(loop_->frames[i].fresh, now) : now,
+            grade);
       }
     });
     return grade;
@@ -142,22 +146,6 @@ class LoopPlayer {
       case Question::moved: return algorithm_->find_pairs_of(frame.fresh, pairs_);
     }
     return Status::unsupported;
-  }
-
-  static Pairs difference(const Pairs& from, const Pairs& what) {
-    Pairs rest;
-    std::ranges::set_difference(from, what, std::back_inserter(rest));
-    return rest;
-  }
-
-  Pairs of_fresh(std::size_t i) const {
-    std::vector<char> is_fresh(loop_->boxes.front().size(), 0);
-    for (const std::uint32_t id : loop_->frames[i].fresh) is_fresh[id] = 1;
-    Pairs some;
-    std::ranges::copy_if(loop_->truth_of(i), std::back_inserter(some), [&](const IndexPair& pair) {
-      return is_fresh[pair.a] != 0 || is_fresh[pair.b] != 0;
-    });
-    return some;
   }
 
   void add_faults(std::size_t i, const PairSink& sink, const Pairs& truth,

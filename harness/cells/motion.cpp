@@ -66,12 +66,8 @@ std::vector<kinds::PlannedSet> motion_cells(files::TomlTable& table,
       request.overrides.push_back({.count = count, .seed = seed, .frames = frames});
   }
   request.threads = whole_numbers(table, "threads", 1024, 1);
-  try {
-    request.broad = kinds::select(registry::entries<BroadPhaseEntry>(),
-                                  table.texts("broad", {"packed-rtree"}), "broad phase");
-  } catch (const base::InputError& error) {
-    table.fail("broad", error.what());
-  }
+  request.broad = kinds::selected(table, registry::entries<BroadPhaseEntry>(), "broad phase",
+                                  "broad", {"packed-rtree"});
   request.casts =
       chains(table, "casts", {"ours", "peers"}, registry::entries<CastEntry>(), cast_chain, "cast");
   if (table.contains("substeps")) request.substeps = whole_numbers(table, "substeps", 1'000'000, 1);

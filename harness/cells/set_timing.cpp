@@ -13,12 +13,10 @@
 #include "harness/base/clock.h"
 #include "harness/base/hash.h"
 #include "harness/process/interrupt.h"
-#include "harness/stats/statistics.h"
 
 namespace touchstone::cells {
 namespace {
 
-constexpr double confidence = 0.95;
 constexpr double twin_width = 0.02;  // a baseline that differs from its twin by more is flagged
 constexpr int processes = 3;         // that a contestant lives through
 constexpr double slack = 10;         // times its time when it was graded, until a sample is stopped
@@ -174,25 +172,12 @@ record::RawRow SetTiming::row_of(const SetMember& member) const {
 
 record::RawRow SetTiming::row_of(const measure::Round& round, const measure::Sample& sample) const {
   record::RawRow row = row_of(members_[sample.contestant]);
-  row.process = round.process;
-  row.square = round.square;
-  row.round = round.round;
-  row.position = sample.position;
-  row.noise = round.noise;
+  campaign::note_place(row, round, sample);
   if (sample.loss) return row;
   const measure::SampleReply& reply = sample.reply;
+  campaign::note_counters(row, reply);
   row.seconds = reply.durations.sum();
-  row.pair_count = reply.pairs;
   row.outcome_hash = base::to_hex(reply.outcome_hash);
-  row.peak_kb = reply.peak_kb;
-  row.minor_faults = reply.minor_faults;
-  row.voluntary_switches = reply.voluntary_switches;
-  row.involuntary_switches = reply.involuntary_switches;
-  row.waited = reply.waited;
-  row.cycles = reply.hardware.cycles;
-  row.instructions = reply.hardware.instructions;
-  row.branch_misses = reply.hardware.branch_misses;
-  row.cache_misses = reply.hardware.cache_misses;
   row.status = record::RowStatus::ok;
   return row;
 }
@@ -200,21 +185,9 @@ record::RawRow SetTiming::row_of(const measure::Round& round, const measure::Sam
 namespace {
 
 void mark_lost(record::RawRow& row, const measure::Loss& loss) {
-  const bool late = !loss.wrong && loss.failure.state == process::ItemState::timed_out;
-  row.status = loss.wrong ? record::RowStatus::wrong
-               : late     ? record::RowStatus::timed_out
-                          : record::RowStatus::crashed;
+  campaign::note_loss(row, loss);
   row.words = record::one_line(loss.wrong ? "another answer than the one that was graded"
                                           : loss.failure.reason() + " " + loss.failure.words);
-}
-
-// Returns true if the baseline differs from its twin by more than the width.
-bool twin_differs(const campaign::SetTimes& times) {
-  if (times.baseline().empty()) return false;
-  const auto interval = stats::median_interval(
-      times.log_ratios(campaign::SetTimes::twin_of(times.baseline()), times.baseline(), false),
-      confidence);
-  return interval.low > std::log1p(twin_width) || interval.high < -std::log1p(twin_width);
 }
 
 }  // namespace
@@ -242,7 +215,7 @@ void SetTiming::take(measure::Round& round) {
       if (last[set] == SIZE_MAX) continue;
       record::RawRow& row = rows[last[set]];
       row.stop = to_string(round.stop);
-      if (twin_differs(times_[set])) row.noise += row.noise.empty() ? "canary" : "+canary";
+      if (times_[set].twin_differs(twin_width)) campaign::note_canary(row);
     }
   }
   (*take_)(rows);

@@ -48,43 +48,27 @@ void read_common(files::TomlTable& table, CheckRequest& request) {
   request.time_limit = table.number("time_limit", files::positive, request.time_limit);
 }
 
-// Reads the names of algorithms.
-CaseSelection read_algorithms(files::TomlTable& table) {
+// Reads the names of algorithms. Those that there are not are reported at their keys.
+CaseSelection read_algorithms(files::TomlTable& table, const CheckRequest& request) {
   const auto read = [&](std::string_view key) {
     return table.has(key) ? list_of(table, key) : std::string();
   };
   CaseSelection selection;
   selection.with = read("with");
   selection.kinds = read("kinds");
-  selection.pair = read("narrow");
-  for (const kinds::Kind* kind : kinds::kinds()) selection.others[kind] = read(kind->old_name());
+  for (const kinds::Kind* kind : kinds::checked_kinds()) {
+    // Boxes have no axes and are not counted.
+    if (request.mode != CheckMode::cases && kind->families().empty()) continue;
+    const std::string list = selection.of_one[kind] = read(kind->old_name());
+    if (list.empty()) continue;
+    selected(table, kind->old_name(),
+             [&] { return kind->contestants(kinds::split_names(list), request.scalars); });
+  }
   return selection;
 }
 
-// Names that there are not are reported at their keys.
-void expect_algorithms(files::TomlTable& table, const CaseSelection& selection,
-                       const CheckRequest& request) {
-  const auto expect = [&](std::string_view key, const std::string& list, const auto& take) {
-    if (list.empty()) return;
-    selected(table, key, [&] {
-      take(list);
-      return true;
-    });
-  };
-  expect("narrow", selection.pair,
-         [&](const auto& list) { narrow_phases_to_grade(list, request.scalars); });
-  expect("broad", selection.box, [](const auto& list) {
-    kinds::select(registry::entries<BroadPhaseEntry>(), kinds::split_names(list), "broad phase");
-  });
-  for (const auto& [kind, names] : selection.others) {
-    expect(kind->old_name(), names, [&, kind = kind](const auto& list) {
-      kind->contestants(kinds::split_names(list), request.scalars);
-    });
-  }
-}
-
 void read_selection(files::TomlTable& table, CheckRequest& request) {
-  CaseSelection selection = read_algorithms(table);
+  CaseSelection selection = read_algorithms(table, request);
   const bool has_axes = request.mode == CheckMode::axes;
   std::string axes;
   if (has_axes) {
@@ -92,11 +76,7 @@ void read_selection(files::TomlTable& table, CheckRequest& request) {
   } else {
     selection.regimes = list_of(table, "regimes");
     selection.groups = list_of(table, "groups");
-    if (request.mode == CheckMode::cases && table.has("broad")) {
-      selection.box = list_of(table, "broad");
-    }
   }
-  expect_algorithms(table, selection, request);
   selected(table,
            has_axes                    ? "axes"
            : selection.regimes.empty() ? "groups"
@@ -125,7 +105,8 @@ CheckRequest read_request(files::TomlTable& table, std::string_view table_name) 
       request.rounds = static_cast<int>(table.integer("rounds", 1, 1'000'000'000, 1));
       break;
     case CheckMode::axes:
-      request.cases = static_cast<int>(table.integer("cases", 1, 100'000, request.cases));
+      request.cases =
+          static_cast<int>(table.integer("cases", 1, kinds::most_cases_of_axes, request.cases));
       break;
     case CheckMode::count:
       request.count = table.integer(table_name == "soak" ? "pairs" : "count", 1, 1'000'000'000'000,

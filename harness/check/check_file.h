@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/check/check_request.h"
+#include "harness/check/family_checker.h"
 
 namespace touchstone::check {
 

@@ -1,4 +1,4 @@
-// Does the jobs of a check, tallies their rows and writes the files.
+// Does the jobs of a check, keeps their rows and lets the checkers write the rest.
 #include "harness/check/check_run.h"
 
 #include <fmt/format.h>
@@ -14,8 +14,7 @@
 
 #include "harness/base/clock.h"
 #include "harness/base/progress.h"
-#include "harness/check/check_rows.h"
-#include "harness/check/envelope.h"
+#include "harness/grade/failures/shrunk_failure.h"
 #include "harness/process/interrupt.h"
 #include "harness/process/worker_pool.h"
 #include "harness/record/machine.h"
@@ -23,29 +22,31 @@
 namespace touchstone::check {
 namespace {
 
-constexpr double broad_seconds = 20;  // time limit of a broad phase for a scene
 constexpr double seconds_between_writes = 1;
-constexpr const char* verdicts_file = "soak.csv";
 
 class CheckRun {
  public:
   explicit CheckRun(const CheckRequest& request)
-      : request_(request), folder_(check_folder(request)) {
-    report_.request = &request;
+      : request_(request), folder_(check_folder(request)), report_(request) {
     report_.jobs = folder_.units();
-    if (!request.resume) return;
     std::size_t file = 0;
-    for_each_row_file(request.mode, [&]<class Row>(const char*) {
-      folder_.each_row<Row>(
-          file++, [&](const Row& row) { report_.tally.add(row); }, request_.subjects());
-    });
+    for (const auto& checker : report_.checkers) {
+      first_files_.push_back(file);
+      if (request.resume) checker->take_up(folder_, file);
+      file += checker->files().size();
+    }
   }
 
   CheckReport run() {
     if (request_.period() > 0) report_.interrupted = do_all();
     if (report_.interrupted) return std::move(report_);
     folder_.finish();
-    if (!request_.part) finish_report();
+    if (request_.part) return std::move(report_);
+    grade::remove_case_files(request_.out);
+    for (const auto& checker : report_.checkers) {
+      checker->finish();
+      checker->write_made(report_.jobs);
+    }
     return std::move(report_);
   }
 
@@ -64,26 +65,27 @@ class CheckRun {
     base::Progress progress(in_steps ? static_cast<std::size_t>(jobs.size() - folder_.units()) : 1);
     if (endless) progress.start(fmt::format("checking for {:g} s", request_.seconds));
     if (counts()) {
-      progress.start(
-          fmt::format("{} verdicts", std::min(jobs.size() * cases_of_a_count_job, request_.count)));
+      progress.start(fmt::format(
+          "{} verdicts", std::min(jobs.size() * kinds::cases_of_a_count_job, request_.count)));
     }
     const process::InterruptGuard guard;
-    process::run_jobs<JobResult>(
+    process::run_jobs(
         static_cast<std::size_t>(jobs.first + folder_.units()), static_cast<std::size_t>(jobs.end),
-        request_.workers,
-        [&] {
-          // Each process has one oracle, which keeps its memory from query to query.
-          const auto oracle = std::make_shared<oracle::Oracle>();
-          return [this, oracle](std::size_t job) { return do_job(request_, job, *oracle); };
-        },
-        [&](std::size_t job, const JobResult& result) {
-          keep(result);
+        request_.workers, [&] { return [this](std::size_t job) { return report_.do_job(job); }; },
+        [&](std::size_t job, const std::string& rows) {
+          const kinds::Family& family = *request_.families[job % request_.period()];
+          const std::size_t checker = report_.checker_of(family);
+          report_.checkers[checker]->keep(rows, folder_, first_files_[checker]);
+          ++report_.jobs;
           folder_.commit();
-          if (in_steps) progress.start(name_of(job));
+          if (in_steps) {
+            progress.start(family.axis.empty() ? family.name
+                                               : fmt::format("{} {}", family.axis, family.value));
+          }
           if (counts()) {
             progress.part(static_cast<double>(folder_.units()) / static_cast<double>(jobs.size()));
             if (!request_.part && since_written.seconds() > seconds_between_writes) {
-              write_verdicts();
+              for (const auto& one : report_.checkers) one->write_made(report_.jobs);
               since_written.restart();
             }
           }
@@ -94,97 +96,30 @@ class CheckRun {
     return process::InterruptGuard::raised() && folder_.units() < jobs.size();
   }
 
-  // Writes and counts the rows of a job.
-  void keep(const JobResult& result) {
-    const CheckSubjects subjects = request_.subjects();
-    std::size_t file = 0;
-    for_each_row_file(request_.mode, [&]<class Row>(const char*) {
-      for (const Row& row : result.rows<Row>()) {
-        folder_.write(file, row, subjects);
-        report_.tally.add(row);
-      }
-      ++file;
-    });
-    ++report_.jobs;
-  }
-
-  // What a job asks, for the terminal.
-  std::string name_of(std::size_t job) const {
-    const std::size_t place = job % request_.period();
-    if (place >= request_.regime_jobs()) {
-      return request_.families[place - request_.regime_jobs()]->name;
-    }
-    const Regime& regime = *request_.regimes[place];
-    return regime.axis == nullptr ? regime.name
-                                  : fmt::format("{} {}", regime.axis->name, value_of(regime).name);
-  }
-
-  void finish_report() {
-    report_.failures = write_failures(request_, failing_answers(request_, report_.tally));
-    report_.variant_failures = write_variant_failures(request_, report_.tally);
-    report_.truth_failures = write_truth_failures(request_, report_.tally);
-    report_.family_failures = write_family_failures(request_, report_.tally);
-    switch (request_.mode) {
-      case CheckMode::cases:
-        if (!request_.broad.empty()) report_.scenes = box_scenes(request_.seed);
-        report_.broad = check_broad_phases(request_.broad, report_.scenes, broad_seconds);
-        write_summary(report_, request_.out / "summary.csv");
-        break;
-      case CheckMode::axes:
-        write_envelope(request_, report_.tally.axis_counts(), request_.out / "envelope.csv");
-        break;
-      case CheckMode::count: write_verdicts(); break;
-    }
-  }
-
-  void write_verdicts() const {
-    std::vector<VerdictSum> rows;
-    for (const auto& [key, count] : report_.tally.verdicts()) {
-      rows.push_back({.count = count,
-                      .seed = request_.seed,
-                      .drawn = report_.jobs * cases_of_a_count_job,
-                      .program = program_});
-    }
-    record::write_rows(folder_.path(verdicts_file), rows, request_.subjects());
-  }
-
   const CheckRequest& request_;
-  std::string program_ = record::hash_of_program();
   record::ResultFolder folder_;
   CheckReport report_;
+  std::vector<std::size_t> first_files_;  // of each checker, in the folder
 };
-
-// The names of the regimes, or axes, and families.
-std::pair<std::string, std::string> subject_of(const CheckRequest& request) {
-  std::vector<std::string_view> names;
-  const bool has_axes = request.mode == CheckMode::axes;
-  if (has_axes) {
-    for (const Axis* axis : axes_of(request.subjects())) names.push_back(axis->name);
-  } else if (!request.narrow.empty()) {
-    for (const Regime* regime : request.regimes) names.push_back(regime->name);
-  }
-  for (const kinds::Family* family : request.families) names.push_back(family->name);
-  return {has_axes ? "axes" : "regimes", fmt::format("{}", fmt::join(names, " "))};
-}
 
 }  // namespace
 
 record::ResultFolderPlan check_folder(const CheckRequest& request) {
-  std::vector<std::string_view> narrow, scalars;
-  for (const NarrowPhaseEntry* entry : request.narrow) narrow.push_back(entry->info.name);
   std::vector<std::string> contestants;
-  const auto name_of = request.subjects().contestant_name();
-  for (std::size_t i = 0; i < request.contestants.size(); ++i) contestants.push_back(name_of(i));
+  std::vector<std::string_view> families, scalars;
+  for (const auto& contestant : request.contestants) {
+    contestants.push_back(contestant_name(contestant));
+  }
+  for (const kinds::Family* family : request.families) families.push_back(family->name);
   for (const Precision scalar : request.scalars) scalars.push_back(to_string(scalar));
   record::Facts notes = {{"check", request.resume ? "resumed" : "whole"}};
   for (auto& fact : record::machine_facts()) notes.push_back(std::move(fact));
   // To resume, these must be equal: all of the request but `out`, `seconds`, `count` and `workers`.
   record::Facts identity = {{"seed", std::to_string(request.seed)},
                             {"cases", std::to_string(request.cases)},
-                            {"narrow", fmt::format("{}", fmt::join(narrow, " "))},
+                            {"contestants", fmt::format("{}", fmt::join(contestants, ", "))},
                             {"scalars", fmt::format("{}", fmt::join(scalars, " "))},
-                            {"others", fmt::format("{}", fmt::join(contestants, ", "))},
-                            subject_of(request),
+                            {"families", fmt::format("{}", fmt::join(families, " "))},
                             {"time_limit", fmt::format("{}", request.time_limit)},
                             {"program", record::hash_of_program()}};
   if (request.part) {
@@ -197,10 +132,10 @@ record::ResultFolderPlan check_folder(const CheckRequest& request) {
                                    .notes = std::move(notes),
                                    .start = record::resume_or_overwrite(request.resume),
                                    .work = "check"};
-  for_each_row_file(request.mode, [&]<class Row>(const char* name) {
-    plan.files.push_back({name, record::header_of<Row>(request.subjects())});
-  });
-  if (request.mode == CheckMode::count) plan.made = {verdicts_file};
+  for (const auto& checker : CheckReport(request).checkers) {
+    for (record::RowFile& file : checker->files()) plan.files.push_back(std::move(file));
+    for (std::string& name : checker->made()) plan.made.push_back(std::move(name));
+  }
   return plan;
 }
 

@@ -1,4 +1,4 @@
-// Selects algorithms, regimes and families.
+// Selects algorithms and families.
 #include "harness/check/select_cases.h"
 
 #include <fmt/format.h>
@@ -11,8 +11,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/nearest_name.h"
-#include "harness/check/axes/axes.h"
-#include "harness/kinds/grading.h"
+#include "harness/kinds/kind.h"
 #include "harness/kinds/selection.h"
 
 namespace touchstone::check {
@@ -22,14 +21,14 @@ std::vector<std::string> names_of(const std::string& list) {
   return list.empty() ? std::vector<std::string>{} : kinds::split_names(list);
 }
 
+// Throws InputError for a name that is not among those that `field` gives of the families.
 template <class Field>
-void expect_known(std::string_view what, const std::vector<std::string>& asked, Field field) {
+void expect_known(std::string_view what, const std::vector<std::string>& asked,
+                  const std::vector<const kinds::Family*>& families, Field field) {
   std::vector<std::string> known;
-  const auto add = [&](const std::string& name) {
-    if (std::ranges::find(known, name) == known.end()) known.push_back(name);
-  };
-  for (const Regime& regime : regimes()) add(field(regime));
-  for (const kinds::Family* family : kinds::case_families()) add(field(*family));
+  for (const kinds::Family* family : families) {
+    if (std::ranges::find(known, family->*field) == known.end()) known.push_back(family->*field);
+  }
   for (const std::string& name : asked) {
     if (std::ranges::find(known, name) != known.end()) continue;
     throw base::InputError(fmt::format("no {} is called '{}'; expected some of {}", what, name,
@@ -37,38 +36,17 @@ void expect_known(std::string_view what, const std::vector<std::string>& asked, 
   }
 }
 
-// A kind of algorithms that can be selected.
-struct Selectable {
-  std::string_view name;
-  std::vector<const AlgorithmInfo*> algorithms;
-
-  bool has(std::string_view algorithm) const {
-    return std::ranges::any_of(algorithms,
-                               [&](const AlgorithmInfo* one) { return one->name == algorithm; });
-  }
-};
-
-std::vector<Selectable> all_selectable() {
-  std::vector<Selectable> all = {
-      {kind_words<NarrowPhaseEntry>.word, kinds::infos_of(registry::entries<NarrowPhaseEntry>())},
-      {kind_words<BroadPhaseEntry>.word, kinds::infos_of(registry::entries<BroadPhaseEntry>())}};
-  for (const kinds::Kind* kind : kinds::kinds()) {
-    all.push_back({kind->name(), kind->algorithms()});
-  }
-  return all;
-}
-
 // The kinds that are named, or all. Throws InputError for a name that there is not.
-std::vector<Selectable> selected_kinds(const std::string& list) {
-  std::vector<Selectable> all = all_selectable(), chosen;
-  if (list.empty()) return all;
+std::vector<const kinds::Kind*> selected_kinds(const std::string& list) {
+  const auto all = kinds::checked_kinds();
+  if (list.empty()) return {all.begin(), all.end()};
+  std::vector<const kinds::Kind*> chosen;
   for (const std::string& name : kinds::split_names(list)) {
     const auto words = registry::kind_named(name);
-    const std::string_view word = words ? words->word : name;
-    const auto at = std::ranges::find(all, word, &Selectable::name);
+    const auto at = std::ranges::find(all, words ? words->word : name, &kinds::Kind::name);
     if (at == all.end()) {
       std::vector<std::string_view> known;
-      for (const Selectable& kind : all) known.push_back(kind.name);
+      for (const kinds::Kind* kind : all) known.push_back(kind->name());
       throw base::InputError(base::unknown_name("kind", name, known));
     }
     chosen.push_back(*at);
@@ -77,50 +55,45 @@ std::vector<Selectable> selected_kinds(const std::string& list) {
 }
 
 // What of the list each kind has; nothing where it has nothing. Throws InputError for a name that no kind has.
-std::map<std::string_view, std::string> shares_of(const std::string& list,
-                                                  const std::vector<Selectable>& selectable) {
-  std::map<std::string_view, std::string> shares;
+std::map<const kinds::Kind*, std::string> shares_of(
+    const std::string& list, const std::vector<const kinds::Kind*>& selectable) {
+  std::map<const kinds::Kind*, std::string> shares;
   for (const std::string& name : kinds::split_names(list)) {
+    std::vector<std::string_view> known = {"all", "ours", "libraries", "oracle", "none"};
     bool is_known = false;
-    for (const Selectable& kind : selectable) {
-      if (!kinds::is_group(name) && !kind.has(name)) continue;
+    for (const kinds::Kind* kind : selectable) {
+      bool has_name = kinds::is_group(name);
+      for (const AlgorithmInfo* one : kind->algorithms()) {
+        known.push_back(one->name);
+        has_name = has_name || one->name == name;
+      }
+      if (!has_name) continue;
       is_known = true;
-      std::string& share = shares[kind.name];
+      std::string& share = shares[kind];
       share += (share.empty() ? "" : ",") + name;
     }
-    if (is_known) continue;
-    std::vector<std::string_view> known = {"all", "ours", "libraries", "oracle", "none"};
-    for (const Selectable& kind : selectable) {
-      for (const AlgorithmInfo* one : kind.algorithms) known.push_back(one->name);
-    }
-    throw base::InputError(base::unknown_name("algorithm", name, known));
+    if (!is_known) throw base::InputError(base::unknown_name("algorithm", name, known));
   }
   return shares;
 }
 
-// `fallback`: of every kind, if no algorithm and no kind is named.
-void select_algorithms(const CaseSelection& selection, const char* fallback,
-                       CheckRequest& request) {
-  std::map<std::string_view, std::string> shares;
+void select_algorithms(const CaseSelection& selection, CheckRequest& request) {
+  std::map<const kinds::Kind*, std::string> shares;
   if (!selection.with.empty() || !selection.kinds.empty()) {
     shares =
         shares_of(selection.with.empty() ? "all" : selection.with, selected_kinds(selection.kinds));
   }
-  const bool none_named = selection.is_unsaid();
-  const auto named = [&](std::string_view kind, const std::string& list) {
-    const auto share = shares.find(kind);
-    if (!list.empty()) return share == shares.end() ? list : list + "," + share->second;
-    if (share != shares.end()) return share->second;
-    return none_named ? std::string(fallback) : std::string("none");
-  };
-  request.narrow = narrow_phases_to_grade(named("pair", selection.pair), request.scalars);
-  request.broad = kinds::select(registry::entries<BroadPhaseEntry>(),
-                                kinds::split_names(named("box", selection.box)), "broad phase");
   request.contestants.clear();
-  for (const kinds::Kind* kind : kinds::kinds()) {
-    const auto at = selection.others.find(kind);
-    const std::string list =
-        named(kind->name(), at == selection.others.end() ? std::string() : at->second);
+  for (const kinds::Kind* kind : kinds::checked_kinds()) {
+    std::string list = shares[kind];
+    const auto named = selection.of_one.find(kind);
+    if (named != selection.of_one.end() && !named->second.empty()) {
+      list = list.empty() ? named->second : named->second + "," + list;
+    }
+    if (list.empty() && selection.is_unsaid()) {
+      list = request.mode == CheckMode::count ? kind->counted() : "all";
+    }
+    if (list.empty()) continue;
     for (kinds::Contestant& one : kind->contestants(kinds::split_names(list), request.scalars)) {
       request.contestants.push_back(std::move(one));
     }
@@ -133,46 +106,37 @@ bool takes(const CheckRequest& request, const kinds::Family& family) {
   });
 }
 
-void select_regimes_and_families(const CaseSelection& selection, CheckRequest& request) {
+void select_by_name(const CaseSelection& selection, CheckRequest& request) {
   const auto wanted = names_of(selection.regimes), groups = names_of(selection.groups);
-  expect_known("regime", wanted, [](const auto& one) { return one.name; });
-  expect_known("group of regimes", groups, [](const auto& one) { return one.group; });
+  const auto families = kinds::case_families();
+  expect_known("regime", wanted, families, &kinds::Family::name);
+  expect_known("group of regimes", groups, families, &kinds::Family::group);
   const bool all = wanted.empty() && groups.empty();
-  const auto is_chosen = [&](const auto& one) {
-    return all || std::ranges::find(wanted, one.name) != wanted.end() ||
-           std::ranges::find(groups, one.group) != groups.end();
-  };
-  request.regimes.clear();
-  request.families.clear();
-  for (const Regime& regime : regimes()) {
-    if (is_chosen(regime)) request.regimes.push_back(&regime);
+  for (const kinds::Family* one : families) {
+    const bool is_chosen = all || std::ranges::find(wanted, one->name) != wanted.end() ||
+                           std::ranges::find(groups, one->group) != groups.end();
+    if (is_chosen && takes(request, *one)) request.families.push_back(one);
   }
-  for (const kinds::Family* family : kinds::case_families()) {
-    if (takes(request, *family) && is_chosen(*family)) request.families.push_back(family);
+  if (!all && request.period() == 0) {
+    throw base::InputError(
+        "no algorithm that is named takes cases of these regimes; expected algorithms of another "
+        "kind");
+  }
+  if (request.mode == CheckMode::count && request.period() == 0) {
+    throw base::InputError(
+        "--count has no cases for these algorithms; expected some of another kind than box");
   }
 }
 
 void select_values_of_axes(const std::string& axes, CheckRequest& request) {
-  std::string of_pairs;  // axes of narrow phases, and what is known to neither
   const auto wanted = names_of(axes == "all" ? "" : axes);
-  for (const std::string& name : wanted) {
-    const auto families = kinds::axis_families();
-    const auto has_name = [&](const kinds::Family* family) { return family->axis == name; };
-    if (std::ranges::any_of(families, has_name)) continue;
-    of_pairs += (of_pairs.empty() ? "" : ",") + name;
-  }
-  request.regimes.clear();
-  request.families.clear();
-  const bool all = wanted.empty();
-  if (!request.narrow.empty() && (all || !of_pairs.empty())) {
-    request.regimes = select_axes(of_pairs);
-  }
-  for (const kinds::Family* family : kinds::axis_families()) {
-    const bool is_chosen = all || std::ranges::find(wanted, family->axis) != wanted.end();
-    if (is_chosen && takes(request, *family)) request.families.push_back(family);
+  const auto families = kinds::axis_families();
+  expect_known("axis", wanted, families, &kinds::Family::axis);
+  for (const kinds::Family* one : families) {
+    const bool is_chosen = wanted.empty() || std::ranges::find(wanted, one->axis) != wanted.end();
+    if (is_chosen && takes(request, *one)) request.families.push_back(one);
   }
   if (request.period() == 0) {
-    select_axes(of_pairs);  // throws for a name that there is not
     throw base::InputError(
         "no algorithm that is named has cases of these axes; expected at least one");
   }
@@ -181,52 +145,19 @@ void select_values_of_axes(const std::string& axes, CheckRequest& request) {
 }  // namespace
 
 bool CaseSelection::is_unsaid() const {
-  return with.empty() && kinds.empty() && pair.empty() && box.empty() &&
-         std::ranges::all_of(others, [](const auto& named) { return named.second.empty(); });
+  return with.empty() && kinds.empty() &&
+         std::ranges::all_of(of_one, [](const auto& named) { return named.second.empty(); });
 }
 
-std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
-                                                            std::span<const Precision> scalars) {
-  const std::vector<std::string> list = kinds::split_names(names);
-  const auto is_named = [&](const NarrowPhaseEntry* entry) {
-    return std::ranges::find(list, entry->info.name) != list.end();
-  };
-  auto chosen = kinds::select(registry::entries<NarrowPhaseEntry>(), list, "narrow phase");
-  std::erase_if(chosen, [&](const NarrowPhaseEntry* entry) {
-    return entry->info.origin == Origin::oracle && !is_named(entry);
-  });
-  for (const NarrowPhaseEntry* entry : chosen) {
-    // An algorithm of a group may lack the scalar: it is left out.
-    const bool offered =
-        std::ranges::any_of(scalars, [&](Precision scalar) { return offers(*entry, scalar); });
-    if (!is_named(entry) || offered) continue;
-    throw base::InputError(fmt::format("'{}' does not compute in {}; expected another --scalar",
-                                       entry->info.name, to_string(scalars.front())));
-  }
-  return chosen;
-}
-
-void select_cases(CaseSelection selection, const std::string& axes, CheckRequest& request) {
-  const bool unsaid = selection.is_unsaid();
-  const bool counts = request.mode == CheckMode::count;
-  if (unsaid && counts) selection.pair = "certified";
-  select_algorithms(selection, counts ? "none" : "all", request);
-  if (request.mode == CheckMode::axes) {
-    if (unsaid) request.broad.clear();
-    select_values_of_axes(axes, request);
-    return;
-  }
-  select_regimes_and_families(selection, request);
-  const bool some_named = !selection.regimes.empty() || !selection.groups.empty();
-  if (some_named && request.period() == 0) {
-    throw base::InputError(
-        "no algorithm that is named takes cases of these regimes; expected algorithms of another "
-        "kind");
-  }
-  if (counts && request.period() == 0) {
-    throw base::InputError(
-        "--count has no cases for these algorithms; expected some of another kind than box");
-  }
+void select_cases(const CaseSelection& selection, const std::string& axes, CheckRequest& request) {
+  select_algorithms(selection, request);
+  request.families.clear();
+  if (request.mode != CheckMode::axes) return select_by_name(selection, request);
+  // Boxes have no axes: they are left out, unless they are named.
+  if (selection.is_unsaid())
+    std::erase_if(request.contestants,
+                  [](const kinds::Contestant& one) { return one.kind->families().empty(); });
+  select_values_of_axes(axes, request);
 }
 
 }  // namespace touchstone::check

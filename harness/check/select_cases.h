@@ -1,40 +1,29 @@
-// Algorithms of all kinds, and regimes and families of cases for them, by their names. Used by the
+// Algorithms of all kinds, and families of cases for them, by their names. Used by the
 // command check, and by files of requests.
 #pragma once
 
 #include <map>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "harness/check/check_request.h"
-#include "harness/kinds/kind.h"
+#include "harness/check/family_checker.h"
 
 namespace touchstone::check {
 
 // What a user names, each a list joined by commas. Empty: nothing was said.
 struct CaseSelection {
   std::string with;   // algorithms of all kinds, or of those in `kinds`
-  std::string kinds;  // names of kinds: pair, box, and those of kinds::kinds()
-  // Algorithms of one kind.
-  std::string pair, box;
-  std::map<const kinds::Kind*, std::string> others;
-  std::string regimes, groups;  // of regimes and families
+  std::string kinds;  // names of kinds::checked_kinds()
+  std::map<const kinds::Kind*, std::string> of_one;  // algorithms of one kind
+  std::string regimes, groups;                       // names and groups of families
 
   bool is_unsaid() const;  // no algorithms and no kind is named
 };
 
-// Returns the narrow phases of these names and groups, to be graded. The oracle belongs to no group: it does not
-// grade itself, unless it is named. Throws InputError for a name that is unknown, or that has none
-// of the scalars.
-std::vector<const NarrowPhaseEntry*> narrow_phases_to_grade(const std::string& names,
-                                                            std::span<const Precision> scalars);
-
-// Fills in the algorithms, regimes and families of the request, whose mode and scalars are set. If some kind
+// Fills in the algorithms and families of the request, whose mode and scalars are set. If some kind
 // of algorithms is named, only what is named is taken; otherwise all of every kind, or with the mode `count`
-// `certified` alone. Without names of regimes and groups all are taken that the algorithms have cases of. Of axes
-// `axes` is a list joined by commas, or empty or "all". Throws InputError for a name that there is not, and for
+// what the kinds count alone. Without names and groups all families are taken that the algorithms have cases of. Of
+// axes `axes` is a list joined by commas, or empty or "all". Throws InputError for a name that there is not, and for
 // cases that none of the algorithms takes.
-void select_cases(CaseSelection selection, const std::string& axes, CheckRequest& request);
+void select_cases(const CaseSelection& selection, const std::string& axes, CheckRequest& request);
 
 }  // namespace touchstone::check

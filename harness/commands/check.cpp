@@ -1,6 +1,7 @@
 // touchstone check: grades every algorithm against exact answers, on hard cases, along axes to its
 // limits, or by the million.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <memory>
@@ -10,25 +11,29 @@
 #include <system_error>
 
 #include "harness/base/error.h"
+#include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
 #include "harness/check/select_cases.h"
+#include "harness/check/versions.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/text_file.h"
+#include "harness/kinds/pair/pair_request.h"
+#include "harness/peer/peer.h"
 
 namespace touchstone::commands {
 namespace {
 
 constexpr int quick_cases = 4;
-constexpr int most_cases_of_axes = 100'000;
 
 struct CheckOptions {
   check::CaseSelection selection;
-  std::string axes, out, page, certificates, saved;
+  std::string file, axes, out, page, certificates, saved, written;
+  std::vector<std::string> peers, answers;
   check::CheckRequest common;  // what is the same with and without --axes and --count
   std::optional<int> cases;
   std::optional<double> time_limit;
@@ -49,7 +54,9 @@ ModeNames names_of(check::CheckMode mode) {
   return {"check", "grades.csv"};
 }
 
-check::CheckRequest request_of(const CheckOptions& options, check::CheckMode mode) {
+// `peers` are graded too, or alone if no algorithm is named.
+check::CheckRequest request_of(const CheckOptions& options, check::CheckMode mode,
+                               const std::string& peers) {
   check::CheckRequest request(mode);
   request.scalars = options.common.scalars;
   request.seed = options.common.seed;
@@ -60,30 +67,37 @@ check::CheckRequest request_of(const CheckOptions& options, check::CheckMode mod
   if (options.cases) request.cases = *options.cases;
   if (options.quick) request.cases = quick_cases;
   if (options.time_limit) request.time_limit = *options.time_limit;
-  if (mode == check::CheckMode::axes && request.cases > most_cases_of_axes) {
+  if (mode == check::CheckMode::axes && request.cases > kinds::most_cases_of_axes) {
     throw base::InputError(fmt::format("--cases: found {}; expected at most {} with --axes",
-                                       request.cases, most_cases_of_axes));
+                                       request.cases, kinds::most_cases_of_axes));
   }
-  check::select_cases(options.selection, options.axes, request);
+  check::CaseSelection selection = options.selection;
+  selection.with = joined_names(selection.with, peers);
+  check::select_cases(selection, options.axes, request);
+  if (!options.file.empty()) kinds::take_case_file(options.file, request);
   request.out = results_folder(options.out, std::string(names_of(mode).folder));
   return request;
 }
 
 int verify(const std::string& file) {
-  check::CertificateVerdicts verdicts;
-  const auto print = [&](const char* until) {
-    for (const std::string& line : verdicts.refused) fmt::print("{}\n", line);
-    fmt::print("{} certificates verified, {} refused{}\n", verdicts.verified,
-               verdicts.refused_count, until);
-  };
-  try {
-    check::verify_certificates(file, verdicts);
-  } catch (const base::InputError&) {
-    print(", before what cannot be read");
-    throw;
+  kinds::Verdicts verdicts(file);
+  const bool good = verdicts.of([&] { check::verify_certificates(file, verdicts); });
+  return good ? exit_done : exit_measured_wrong;
+}
+
+// Draws the cases, and writes the questions that a peer would be asked.
+int write_questions(const CheckOptions& options, check::CheckMode mode) {
+  files::check_output(options.written);
+  const peer::QuestionWriter writer;
+  const check::CheckRequest request = request_of(options, mode, writer.name());
+  const check::CheckReport report(request);
+  base::Progress progress(static_cast<std::size_t>(request.job_count()));
+  for (std::int64_t job = 0; job < request.job_count(); ++job) {
+    progress.start(fmt::format("questions of job {}", job));
+    report.do_job(static_cast<std::size_t>(job));
   }
-  print("");
-  return verdicts.refused_count == 0 ? exit_done : exit_measured_wrong;
+  fmt::print("{} questions in {}\n", writer.save(options.written), options.written);
+  return exit_done;
 }
 
 // Draws the maps of axes. Returns their path from the page's folder; empty if they are not drawn.
@@ -102,10 +116,26 @@ std::string draw_maps(const std::filesystem::path& out, const std::string& page)
   return std::filesystem::absolute(out / "figures").lexically_relative(folder).string();
 }
 
+// The versions of libraries of which several were asked.
+std::string text_of(const check::VersionReport& versions) {
+  if (versions.is_empty()) return "";
+  return fmt::format(
+      "\nVersions over the same cases. Wrong: on the other side of contact, or a number off, by "
+      "more "
+      "than {:g} of the size.\n{}{}\nRows in versions.csv and version_changes.csv\n",
+      check::wrong_share, versions.table().text(base::page_width()),
+      fmt::join(versions.since(), "\n"));
+}
+
 // `command` is said to have made the page.
 int run(const CheckOptions& options, check::CheckMode mode, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
-  const check::CheckRequest request = request_of(options, mode);
+  if (!options.written.empty()) return write_questions(options, mode);
+  std::string peers = start_peers(options.peers);
+  for (const std::string& file : options.answers) {
+    peers = joined_names(peers, peer::add_answers(file));
+  }
+  const check::CheckRequest request = request_of(options, mode, peers);
   const bool has_axes = mode == check::CheckMode::axes;
   if (!options.page.empty()) {
     // The page may be in the folder that is about to be made, as that of axes is.
@@ -121,11 +151,13 @@ int run(const CheckOptions& options, check::CheckMode mode, const std::string& c
   }
   const check::CheckReport report = check::run_check(request);
   if (report.interrupted) return end_interrupted();
+  check::VersionReport versions;
+  if (mode == check::CheckMode::cases) versions = check::compare_versions(request);
   print_summary(
       request.out,
-      fmt::format("{}\nRows in {} and families.csv of {}; case files of what is wrong in {}\n",
-                  check::summary_text(report, base::page_width()), names_of(mode).rows,
-                  request.out.string(), (request.out / "failures").string()));
+      fmt::format("{}{}\nRows in {} and families.csv of {}; case files of what is wrong in {}\n",
+                  check::summary_text(report, base::page_width()), text_of(versions),
+                  names_of(mode).rows, request.out.string(), (request.out / "failures").string()));
   const std::string maps = has_axes ? draw_maps(request.out, options.page) : "";
   if (!options.page.empty()) {
     files::write_text(options.page, check::page_text(report, command, maps));
@@ -135,16 +167,11 @@ int run(const CheckOptions& options, check::CheckMode mode, const std::string& c
 
 // Adds an option for each kind by its old name.
 void add_older_spellings(Arguments& command, check::CaseSelection& selection) {
-  const auto add = [&](std::string_view option, std::string& list, std::string_view kind) {
+  for (const kinds::Kind* kind : kinds::checked_kinds()) {
     command
-        .text("--" + std::string(option), list,
-              fmt::format("The same as --with for the kind {} alone", kind))
+        .text("--" + std::string(kind->old_name()), selection.of_one[kind],
+              fmt::format("The same as --with for the kind {} alone", kind->name()))
         .group("Older spellings");
-  };
-  add("narrow", selection.pair, "pair");
-  add("broad", selection.box, "box");
-  for (const kinds::Kind* kind : kinds::kinds()) {
-    add(kind->old_name(), selection.others[kind], kind->name());
   }
 }
 
@@ -153,6 +180,8 @@ void add_older_spellings(Arguments& command, check::CaseSelection& selection) {
 void add_check(Arguments command) {
   const auto options = std::make_shared<CheckOptions>();
   check::CheckRequest& common = options->common;
+  const Option file = command.text(
+      "FILE", options->file, "Pairs to grade in place of the regimes, one JSON object a line");
   Option axes = command
                     .text("--axes", options->axes,
                           "Drive one property of a case at a time to its extreme, and find where "
@@ -168,6 +197,13 @@ void add_check(Arguments command) {
           .value_optional();
   command.text("--with", options->selection.with,
                "Algorithms of all kinds: names, all, ours, libraries, oracle, none");
+  add_peer(command, options->peers);
+  command
+      .texts(
+          "--answers", options->answers,
+          "Also grade what a peer answered to the questions of --export: its file, with the same "
+          "options")
+      .once_each();
   command.text("--kind", options->selection.kinds,
                "Only these kinds: pair, box, mesh, ray, point, cast, feature, scene-ray");
   command.text("--regimes", options->selection.regimes,
@@ -209,10 +245,23 @@ void add_check(Arguments command) {
             "Only prove the exact answers of the cases, and write the proofs to this file")
       .excludes(page)
       .excludes(command.option("--resume"));
+  Option written =
+      command.text("--export", options->written,
+                   "Only write the questions for a peer that runs elsewhere to this file (default: "
+                   "in double alone)");
+  for (const char* name : {"--with", "--peer", "--answers", "--seconds", "--page", "--resume",
+                           "--save-certificates", "--out"}) {
+    written.excludes(command.option(name));
+  }
   command.text("--certificates", options->certificates, "Only verify the proofs in this file");
   add_older_spellings(command, options->selection);
   command.exclude_others("--certificates");
   axes.excludes(count);
+  for (Option option : {axes, count, cases, command.option("--regimes"), command.option("--groups"),
+                        command.option("--seed"), command.option("--seconds"),
+                        command.option("--save-certificates")}) {
+    option.excludes(file);
+  }
   for (const char* name :
        {"--regimes", "--groups", "--seconds", "--save-certificates", "--broad"}) {
     axes.excludes(command.option(name));
@@ -220,7 +269,10 @@ void add_check(Arguments command) {
   for (const char* name : {"--cases", "--seconds", "--page", "--save-certificates", "--broad"}) {
     count.excludes(command.option(name));
   }
-  command.job([options, command, axes, count] {
+  command.job([options, command, axes, count, written] {
+    if (written.given() && !command.option("--scalar").given()) {
+      options->common.scalars = {Precision::float64};
+    }
     if (axes.given()) return run(*options, check::CheckMode::axes, command.shell_line("--resume"));
     const auto mode = count.given() ? check::CheckMode::count : check::CheckMode::cases;
     return run(*options, mode, command.shell_line("--out"));

@@ -37,7 +37,7 @@ TOUCHSTONE_COMMAND(touchstone_more, compare, "OLD NEW", "Measure", "Compare two 
 TOUCHSTONE_COMMAND(touchstone_more, advise, "SCENE --max-error E", "Measure", "Find the cheapest setup for a scene within an error budget, or all that no other beats")
 TOUCHSTONE_COMMAND(launcher, bench, "[OPTIONS OF GOOGLE BENCHMARK]", "Measure", "Time single kernels, or count their instructions")
 
-TOUCHSTONE_COMMAND(touchstone_more, check, "", "Check", "Grade every algorithm against exact answers: on hard cases, to its limits, by the million")
+TOUCHSTONE_COMMAND(touchstone_more, check, "[PAIRS.jsonl]", "Check", "Grade every algorithm against exact answers: on hard cases, to its limits, by the million")
 TOUCHSTONE_COMMAND(touchstone_more, reproduce, "[REFERENCE]", "Check", "Measure the reference results again, and compare its tables")
 TOUCHSTONE_COMMAND(launcher, test, "[ROOM] [OPTIONS OF CTEST]", "Check", "Build and run every test, or those of one room such as harness/stats")
 

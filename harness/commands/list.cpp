@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "algorithms/registry.h"
@@ -17,6 +18,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/files/csv.h"
+#include "harness/peer/adapters.h"
 
 namespace touchstone::commands {
 namespace {
@@ -26,6 +28,7 @@ struct Listed {
   std::string tolerance = {};  // what a tolerance limits
   const AlgorithmInfo* info = nullptr;
   std::string_view kind = {};
+  bool is_adapter = false;  // it is no entry: --peer makes it one
 };
 
 // Returns "box, pair, ...".
@@ -67,6 +70,28 @@ Listed listed(const CastEntry& entry) {
 }
 Listed listed(const CcdEntry&) { return {"vertex-face;edge-edge", one(Precision::float64)}; }
 
+// The versions of adapters, which are asked where --peer names them.
+const std::vector<std::pair<std::string, AlgorithmInfo>>& adapter_versions() {
+  static const auto all = [] {
+    std::vector<std::pair<std::string, AlgorithmInfo>> list;
+    for (const peer::Adapter& adapter : peer::adapters()) {
+      for (const peer::AdapterVersion& version : adapter.versions) {
+        const std::string name = adapter.name + "@" + version.version;
+        const std::string reason = version.is_installed ? fmt::format("`--peer {}` asks it", name)
+                                                        : "not installed: " + version.install;
+        for (const std::string& kind : adapter.kinds) {
+          list.emplace_back(kind, AlgorithmInfo{.name = name,
+                                                .citation = adapter.about,
+                                                .origin = Origin::peer,
+                                                .reason = reason});
+        }
+      }
+    }
+    return list;
+  }();
+  return all;
+}
+
 // Returns the algorithms of a kind, or of all kinds if `kind` is empty. Throws InputError if no kind
 // has this word.
 std::vector<Listed> algorithms_of(std::string_view kind) {
@@ -82,6 +107,10 @@ std::vector<Listed> algorithms_of(std::string_view kind) {
       all.push_back(listed(entry));
       all.back().info = &entry.info;
       all.back().kind = kind_words<Entry>.word;
+    }
+    for (const auto& [of, info] : adapter_versions()) {
+      if (of == kind_words<Entry>.word)
+        all.push_back({.tasks = "", .scalars = "", .info = &info, .kind = of, .is_adapter = true});
     }
   });
   return all;
@@ -127,6 +156,7 @@ std::string as_table(const std::vector<Listed>& all) {
   for (const Listed& row : all) {
     std::string about =
         is_built(*row.info) ? row.info->citation : "not built, because " + row.info->reason;
+    if (row.is_adapter) about = row.info->reason + "; " + row.info->citation;
     if (is_built(*row.info) && !row.info->lacking.empty()) about += "; " + row.info->lacking;
     if (!row.tolerance.empty()) about += "; tolerance: " + row.tolerance;
     if (!row.info->known_defect.empty()) about += " (known defect: " + row.info->known_defect + ")";

@@ -202,6 +202,7 @@ void print_scalar_hint(const Questions& questions, Precision asked) {
 
 struct QueryOptions {
   std::string file, names = "all", task, kind, out, certificates;
+  std::vector<std::string> peers;
   std::optional<double> time_limit;
   // The options of kinds by name, and whether the command line has them.
   std::map<std::string, std::string> texts;
@@ -271,10 +272,11 @@ void check_options(const kinds::Kind& kind, const kinds::QuestionInput& input) {
 }
 
 kinds::QuestionInput input_of(const QueryOptions& options) {
-  kinds::QuestionInput input = {.file = options.file,
-                                .names = kinds::split_names(options.names),
-                                .task = options.task,
-                                .time_limit = options.time_limit};
+  kinds::QuestionInput input = {
+      .file = options.file,
+      .names = kinds::split_names(joined_names(options.names, start_peers(options.peers))),
+      .task = options.task,
+      .time_limit = options.time_limit};
   for (const auto& [name, option] : options.of_kinds) {
     if (!option.given()) continue;
     const auto text = options.texts.find(name);
@@ -434,6 +436,7 @@ void add_query(Arguments command) {
       .text("--with,--narrow,--broad,--cast,--ccd,--query,--algorithm", options->names,
             "Algorithms: names joined by commas, all, ours, libraries or oracle")
       .show_default();
+  add_peer(command, options->peers);
   command.text("--task", options->task, "What is asked (default: the kind's fullest)");
   command.text("--kind", options->kind,
                "The kind of the questions, where the file does not tell: " + kind_list);

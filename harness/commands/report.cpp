@@ -34,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportOptions {
-  std::vector<std::string> results, scenes;
+  std::vector<std::string> results, scenes, peers;
   std::string narrow = "certified,gjk", broad = "uniform-grid,linear-bvh,sweep-and-prune";
   std::string out, page;
   scene::SceneOverrides overrides;
@@ -79,14 +79,16 @@ files::OrderedJson approximate() {
   return names;
 }
 
-report::RecordingRequest recording_request(const ReportOptions& options) {
+// `peers` are asked too.
+report::RecordingRequest recording_request(const ReportOptions& options, const std::string& peers) {
   report::RecordingRequest request;
   request.page = options.out;
   request.overrides = options.overrides;
   request.most_frames = options.frames;
   request.time_limit = options.time_limit;
-  request.narrow = kinds::select(registry::entries<NarrowPhaseEntry>(),
-                                 kinds::split_names(options.narrow), "narrow phase");
+  request.narrow =
+      kinds::select(registry::entries<NarrowPhaseEntry>(),
+                    kinds::split_names(joined_names(options.narrow, peers)), "narrow phase");
   request.broad = kinds::select(registry::entries<BroadPhaseEntry>(),
                                 kinds::split_names(options.broad), "broad phase");
   return request;
@@ -158,7 +160,7 @@ void make_report(const ReportOptions& options) {
   std::vector<files::NamedFile> inputs;
   for (const std::string& scene : options.scenes) inputs.push_back({"--scene", scene});
   files::check_outputs(inputs, std::vector<files::NamedFile>{{"--out", options.out}});
-  const report::RecordingRequest recording = recording_request(options);
+  const report::RecordingRequest recording = recording_request(options, start_peers(options.peers));
   files::OrderedJson results = files::OrderedJson::array(), scenes = files::OrderedJson::array();
   for (const report::ResultsRequest& request : results_requests(options)) {
     fmt::print(stderr, "{}\n", request.folder.string());
@@ -211,6 +213,7 @@ void add_report(Arguments command) {
       .show_default();
   command.text("--broad", options->broad, "Broad phases whose structure a scene shows: names")
       .show_default();
+  add_peer(command, options->peers);
   command.number("--frames", options->frames, "The most frames of a scene")
       .within(1, 100'000)
       .show_default();

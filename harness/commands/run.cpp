@@ -56,7 +56,24 @@ struct RunOptions {
   std::string plan;
   std::int64_t shard = -1;
   double depth_error = stats::usual_depth_error;
+  std::vector<std::string> peers;
 };
+
+// Adds the peers to every group that asks narrow phases, in each of their scalars. They are graded, and not timed.
+void add_peers(const std::string& names, campaign::Campaign& campaign) {
+  if (names.empty()) return;
+  for (const NarrowPhaseEntry* entry : kinds::select(registry::entries<NarrowPhaseEntry>(),
+                                                     kinds::split_names(names), "narrow phase")) {
+    for (campaign::CampaignGroup& group : campaign.groups) {
+      const bool has_it = std::ranges::find(group.narrow, entry, &measure::NarrowChoice::entry) !=
+                          group.narrow.end();
+      if (group.narrow.empty() || has_it) continue;
+      for (const Precision scalar : entry->scalars) {
+        group.narrow.push_back({entry, {.scalar = scalar}, false, measure::usual_batch});
+      }
+    }
+  }
+}
 
 campaign::Campaign campaign_of(const RunOptions& options) {
   if (options.scenes.empty()) {
@@ -217,7 +234,7 @@ bool run_first_look(campaign::Campaign campaign, const std::filesystem::path& fo
 }
 
 // Does what is asked of another file than a campaign of scenes, or of a shard; returns nothing for such a campaign.
-std::optional<int> run_other_file(const RunOptions& options, RunFile run_file) {
+std::optional<int> run_other_file(const RunOptions& options, const WholeRun& whole) {
   RunFileOptions of_file = {.file = options.campaign,
                             .out = options.out,
                             .plan = options.plan,
@@ -231,21 +248,25 @@ std::optional<int> run_other_file(const RunOptions& options, RunFile run_file) {
   if (options.dry_run) of_file.others.emplace_back("--dry-run");
   if (options.tables) of_file.others.emplace_back("--tables");
   if (options.quick) of_file.others.emplace_back("--quick");
-  return run_file(of_file);
+  if (!options.peers.empty()) of_file.others.emplace_back("--peer");
+  return whole.run_file(of_file);
 }
 
-int run(const RunOptions& options, RunFile run_file) {
-  const bool is_standard = options.campaign.empty() && options.scenes.empty();
+int run(const RunOptions& options, const WholeRun* whole) {
+  const bool is_standard =
+      options.campaign.empty() && options.scenes.empty() && options.peers.empty();
   const bool is_shard = !options.plan.empty();
-  if (run_file == nullptr && (!is_standard || is_shard || options.with_page)) hand_over();
+  if (whole == nullptr && (!is_standard || is_shard || options.with_page)) hand_over();
   if (!options.campaign.empty() || is_shard) {
-    if (const auto status = run_other_file(options, run_file)) return *status;
+    if (const auto status = run_other_file(options, *whole)) return *status;
   }
   if (options.threads_given && options.scenes.empty()) {
     throw base::InputError(
         "--threads belongs to --scene or --plan; expected it in the campaign's file");
   }
+  const std::string peers = whole == nullptr ? "" : whole->start_peers(options.peers);
   campaign::Campaign campaign = campaign_of(options);
+  add_peers(peers, campaign);
   if (options.quick) make_quick(campaign);
   const std::filesystem::path folder = results_folder(options.out, campaign.name);
   if (options.dry_run) {
@@ -269,7 +290,7 @@ int run(const RunOptions& options, RunFile run_file) {
   return result.findings.ours_are_wrong() ? exit_measured_wrong : exit_done;
 }
 
-void add_run_options(Arguments command, RunFile run_file) {
+void add_run_options(Arguments command, const WholeRun* whole) {
   auto options = std::make_shared<RunOptions>();
   const Option campaign = command.text(
       "campaign", options->campaign, "Campaign file (.toml); without one, the standard comparison");
@@ -293,6 +314,7 @@ void add_run_options(Arguments command, RunFile run_file) {
                "Take few samples, of at most 4 frames and 3,000 generated bodies where the "
                "campaign names more, for a first look");
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
+  add_peer(command, options->peers).excludes(command.option("--plan"));
 
   const std::string one = "Instead of a campaign file";
   const Option scene =
@@ -345,15 +367,15 @@ void add_run_options(Arguments command, RunFile run_file) {
                   "Pairs of a narrow phase's call; 1: one pair at a time")
           .within(1, measure::usual_batch)
           .show_default());
-  command.job([options, threads, run_file] {
+  command.job([options, threads, whole] {
     options->threads_given = threads.given();
-    return run(*options, run_file);
+    return run(*options, whole);
   });
 }
 
 }  // namespace
 
 void add_run(Arguments command) { add_run_options(command, nullptr); }
-void add_run(Arguments command, RunFile run_file) { add_run_options(command, run_file); }
+void add_run(Arguments command, const WholeRun& whole) { add_run_options(command, &whole); }
 
 }  // namespace touchstone::commands

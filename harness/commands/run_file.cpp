@@ -127,6 +127,9 @@ std::optional<int> run_file(const RunFileOptions& options) {
 
 }  // namespace
 
-void add_run_of_any(Arguments command) { add_run(command, run_file); }
+void add_run_of_any(Arguments command) {
+  static constexpr WholeRun whole = {run_file, start_peers};
+  add_run(command, whole);
+}
 
 }  // namespace touchstone::commands

@@ -19,10 +19,16 @@ struct RunFileOptions {
       {};  // further options that were given, which a campaign of scenes alone takes
 };
 
-// Does it, and returns the exit status; returns nothing if the file is a campaign of scenes. Throws InputError.
-using RunFile = std::optional<int> (*)(const RunFileOptions& options);
+// What the whole `run` has beyond the standard comparison.
+struct WholeRun {
+  // Does what a file asks for, and returns the exit status; returns nothing if the file is a campaign of scenes.
+  // Throws InputError.
+  std::optional<int> (*run_file)(const RunFileOptions& options);
+  // As start_peers of shared_options.h.
+  std::string (*start_peers)(const std::vector<std::string>& peers);
+};
 
-// Adds `run` to a program that has what such files need.
-void add_run(Arguments command, RunFile run_file);
+// Adds `run` to a program that has all this. `whole` outlives it.
+void add_run(Arguments command, const WholeRun& whole);
 
 }  // namespace touchstone::commands

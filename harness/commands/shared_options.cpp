@@ -82,6 +82,19 @@ Option add_threads(Arguments& command, int& threads, const std::string& help) {
   return command.number("--threads", threads, help).within(1, 1024).show_default();
 }
 
+Option add_peer(Arguments& command, std::vector<std::string>& peers) {
+  return command
+      .texts("--peer", peers,
+             "Also ask a program behind a pipe (results/peer_protocol.md): its command, or an "
+             "adapter of datasets/adapters, NAME, NAME@VERSION or NAME@all; it may stand several "
+             "times")
+      .once_each();
+}
+
+std::string joined_names(const std::string& names, const std::string& further) {
+  return names + (names.empty() || further.empty() ? "" : ",") + further;
+}
+
 Option add_shard(Arguments& command, std::string& plan, std::int64_t& shard) {
   Option folder = command.text("--plan", plan, "Folder of a plan, of which one shard is done");
   const Option number =

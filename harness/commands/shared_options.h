@@ -52,6 +52,13 @@ void print_summary(const std::filesystem::path& folder, const std::string& text)
 // Says that work which --resume continues was interrupted; returns the exit status.
 int end_interrupted();
 
+// Adds --peer, which may stand several times.
+Option add_peer(Arguments& command, std::vector<std::string>& peers);
+// Adds these peers to the registry. Returns the names of their entries, joined by commas.
+std::string start_peers(const std::vector<std::string>& peers);
+// Returns both lists of names, joined by commas, without an empty one.
+std::string joined_names(const std::string& names, const std::string& further);
+
 // Throws InputError if one of these options was given. `expected` says where it may be, such as "with
 // --task distance alone".
 void expect_not_given(std::initializer_list<Option> options, const std::string& expected);

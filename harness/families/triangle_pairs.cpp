@@ -92,24 +92,24 @@ Pose any_pose(Draws& random) {
   return pose;
 }
 
-}  // namespace
-
-TrianglePair edges_near(Draws& random, double size) {
-  TrianglePair pair = edge_on_edge(random, 0);
-  Vec3d normal = (pair.a[1] - pair.a[0]).cross(pair.b[1] - pair.b[0]);
+// Moves the second triangle by the size along a normal of both, to either side.
+TrianglePair moved_along(TrianglePair pair, Vec3d normal, Draws& random, double size) {
   if (normal.norm() < 1e-3) normal = Vec3d::UnitX();
   const Vec3d step = normal.normalized() * either_sign(random, size);
   for (Vec3d& corner : pair.b) corner += step;
   return pair;
 }
 
+}  // namespace
+
+TrianglePair edges_near(Draws& random, double size) {
+  const TrianglePair pair = edge_on_edge(random, 0);
+  return moved_along(pair, (pair.a[1] - pair.a[0]).cross(pair.b[1] - pair.b[0]), random, size);
+}
+
 TrianglePair vertex_near_face(Draws& random, double size) {
-  TrianglePair pair = vertex_on_face(random, 0);
-  Vec3d normal = (pair.a[1] - pair.a[0]).cross(pair.a[2] - pair.a[0]);
-  if (normal.norm() < 1e-3) normal = Vec3d::UnitX();
-  const Vec3d step = normal.normalized() * either_sign(random, size);
-  for (Vec3d& corner : pair.b) corner += step;
-  return pair;
+  const TrianglePair pair = vertex_on_face(random, 0);
+  return moved_along(pair, (pair.a[1] - pair.a[0]).cross(pair.a[2] - pair.a[0]), random, size);
 }
 
 TrianglePair slivers(Draws& random, double size) {

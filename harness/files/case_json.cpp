@@ -176,6 +176,13 @@ Motion read_motion(const JsonNode& body) {
 
 }  // namespace
 
+void for_each_case(const std::filesystem::path& file,
+                   const std::function<void(const JsonNode&)>& each) {
+  for_each_json_line(file, "case", [&](const JsonNode& line) {
+    if (!line.value().is_object() || !line.has("protocol")) each(line);
+  });
+}
+
 std::string read_id(const JsonNode& line) {
   return line.has("id") ? line.at("id", "").text("a string") : fmt::format("{}", line.line());
 }

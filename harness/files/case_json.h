@@ -2,6 +2,8 @@
 // {"shape": {"type": ...}, "translation": ..., "rotation": ...}.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 
@@ -24,6 +26,11 @@ Pose read_pose(const JsonNode& body);
 int read_axis(const JsonNode& shape);
 
 OrderedJson body_to_json(const Shape& shape, const Pose& pose);
+
+// Calls `each` for every line that is a case. Throws InputError as for_each_json_line. The first line of a file of
+// questions to a peer, which has the key "protocol", is none.
+void for_each_case(const std::filesystem::path& file,
+                   const std::function<void(const JsonNode&)>& each);
 
 // The id of a case; the number of its line if it has none.
 std::string read_id(const JsonNode& line);

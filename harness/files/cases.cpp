@@ -9,7 +9,7 @@ namespace touchstone::files {
 std::vector<Case> read_cases(const std::filesystem::path& file) {
   std::vector<Case> cases;
   KeyWarnings warnings;
-  for_each_json_line(file, "case", [&](const JsonNode& line) {
+  for_each_case(file, [&](const JsonNode& line) {
     read_case(line, cases.emplace_back());
     warnings.look(line);
   });
@@ -19,7 +19,7 @@ std::vector<Case> read_cases(const std::filesystem::path& file) {
 std::vector<CastCase> read_cast_cases(const std::filesystem::path& file) {
   std::vector<CastCase> cases;
   KeyWarnings warnings;
-  for_each_json_line(file, "case", [&](const JsonNode& line) {
+  for_each_case(file, [&](const JsonNode& line) {
     cases.push_back(read_cast_case(line));
     warnings.look(line);
   });
@@ -34,19 +34,6 @@ std::string to_json(const Case& c) {
   return out.dump();
 }
 
-std::string to_json(const CastCase& c) {
-  const auto moving = [](const Shape& shape, const Pose& pose, const Motion& motion) {
-    const auto numbers = [](const Vec3d& v) { return std::array{v.x(), v.y(), v.z()}; };
-    OrderedJson body = body_to_json(shape, pose);
-    body["displacement"] = numbers(motion.displacement);
-    body["rotation_vector"] = numbers(motion.rotation_vector);
-    return body;
-  };
-  OrderedJson out;
-  out["id"] = c.id;
-  out["a"] = moving(c.shape_a, c.pose_a, c.motion_a);
-  out["b"] = moving(c.shape_b, c.pose_b, c.motion_b);
-  return out.dump();
-}
+std::string to_json(const CastCase& c) { return to_ordered_json(c).dump(); }
 
 }  // namespace touchstone::files

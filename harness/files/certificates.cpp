@@ -15,13 +15,11 @@ using oracle::SignedRoot;
 // --- reading ---
 
 Answer read_answer(const JsonNode& node) {
-  constexpr std::string_view expected = "separated, touching, overlapping or unknown";
-  const std::string& text = node.text(expected);
-  for (const Answer answer :
-       {Answer::separated, Answer::touching, Answer::overlapping, Answer::unknown}) {
-    if (text == to_string(answer)) return answer;
-  }
-  node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+  constexpr Names<Answer, 4> names = {{{"separated", Answer::separated},
+                                       {"touching", Answer::touching},
+                                       {"overlapping", Answer::overlapping},
+                                       {"unknown", Answer::unknown}}};
+  return read_name(node, names, "separated, touching, overlapping or unknown");
 }
 
 SignedRoot read_root(const JsonNode& node) {
@@ -67,11 +65,7 @@ StoredCertificate read_certificate(const JsonNode& node) {
   certificate.upper = read_root(node.at("upper", "a signed root"));
   certificate.direction =
       read_integers<3>(node.at("direction", "an array of 3 integers in strings"));
-  certificate.a = read_generators(node.at("generators_a", "an array"));
-  certificate.b = read_generators(node.at("generators_b", "an array"));
-  certificate.closest = read_terms(node.at("closest", "an array"));
-  certificate.surface =
-      read_surface(node.at("surface", "an object with \"points\" and \"triangles\""));
+  read_common_point(node, certificate);
   return stored;
 }
 
@@ -106,10 +100,7 @@ std::string to_json(const StoredCertificate& stored) {
   out["lower"] = root_to_json(certificate.lower);
   out["upper"] = root_to_json(certificate.upper);
   out["direction"] = integers_to_json(certificate.direction);
-  out["generators_a"] = generators_to_json(certificate.a);
-  out["generators_b"] = generators_to_json(certificate.b);
-  out["closest"] = terms_to_json(certificate.closest);
-  out["surface"] = surface_to_json(certificate.surface);
+  add_common_point(out, certificate);
   return out.dump();
 }
 
@@ -143,10 +134,7 @@ std::string to_json(const StoredCastCertificate& stored) {
     out["planes"].push_back(
         {{"until", fraction_to_json(until)}, {"direction", integers_to_json(direction)}});
   }
-  out["generators_a"] = generators_to_json(certificate.a);
-  out["generators_b"] = generators_to_json(certificate.b);
-  out["closest"] = terms_to_json(certificate.closest);
-  out["surface"] = surface_to_json(certificate.surface);
+  add_common_point(out, certificate);
   out["feature"] = OrderedJson::array();
   for (const auto& [a, b] : certificate.feature) out["feature"].push_back({a, b});
   out["polynomial"] = integers_to_json(certificate.polynomial);
@@ -164,11 +152,7 @@ void read_cast_certificates(
     certificate.lower = read_fraction(line.at("lower", "a time"));
     certificate.upper = read_fraction(line.at("upper", "a time"));
     certificate.planes = read_list(line.at("planes", "an array"), "an array of planes", read_plane);
-    certificate.a = read_generators(line.at("generators_a", "an array"));
-    certificate.b = read_generators(line.at("generators_b", "an array"));
-    certificate.closest = read_terms(line.at("closest", "an array"));
-    certificate.surface =
-        read_surface(line.at("surface", "an object with \"points\" and \"triangles\""));
+    read_common_point(line, certificate);
     certificate.feature =
         read_list(line.at("feature", "an array"), "an array of pairs of indices", read_point);
     certificate.polynomial =

@@ -304,7 +304,7 @@ std::vector<ConcaveCase> read_concave_cases(const std::filesystem::path& file, M
   MeshFiles own;
   MeshFiles* const files = meshes != nullptr ? meshes : &own;
   KeyWarnings warnings;
-  for_each_json_line(file, "case", [&](const JsonNode& line) {
+  for_each_case(file, [&](const JsonNode& line) {
     cases.push_back(read_concave_case(line, files));
     warnings.look(line);
   });

@@ -15,9 +15,6 @@ using oracle::PartsCertificate;
 using Step = PartsCertificate::Step;
 using PartsClaim = PartsCertificate::Claim;
 
-template <class Value, std::size_t size>
-using Names = std::array<std::pair<std::string_view, Value>, size>;
-
 constexpr Names<PartsClaim, 3> names_of_claims = {{{"intersect", PartsClaim::intersect},
                                                    {"distance", PartsClaim::distance},
                                                    {"contacts", PartsClaim::contacts}}};
@@ -30,23 +27,6 @@ constexpr Names<Step::Kind, 5> names_of_steps = {{{"a", Step::Kind::halve_a},
                                                   {"meet", Step::Kind::meet},
                                                   {"open", Step::Kind::open}}};
 
-template <class Value, std::size_t size>
-Value read_name(const JsonNode& node, const Names<Value, size>& names, std::string_view expected) {
-  const std::string& text = node.text(expected);
-  for (const auto& [name, value] : names) {
-    if (text == name) return value;
-  }
-  node.fail(fmt::format("found {}; expected {}", node.found(), expected));
-}
-
-template <class Value, std::size_t size>
-std::string_view name_of(Value asked, const Names<Value, size>& names) {
-  for (const auto& [name, value] : names) {
-    if (value == asked) return name;
-  }
-  return "";
-}
-
 Step read_step(const JsonNode& node) {
   if (node.value().is_array()) return {Step::Kind::plane, read_integers<3>(node)};
   return {read_name(node, names_of_steps, "a, b, own, meet, open or a direction"), {}};
@@ -55,11 +35,10 @@ Step read_step(const JsonNode& node) {
 PartsCertificate::Met read_met(const JsonNode& node) {
   node.as_object("two parts with their common point");
   const auto parts = read_point(node.at("parts", "the numbers of two parts"));
-  return {{parts.a, parts.b},
-          read_generators(node.at("generators_a", "an array")),
-          read_generators(node.at("generators_b", "an array")),
-          read_terms(node.at("closest", "an array")),
-          read_surface(node.at("surface", "an object with \"points\" and \"triangles\""))};
+  PartsCertificate::Met met{
+      .parts = {parts.a, parts.b}, .a = {}, .b = {}, .closest = {}, .surface = {}};
+  read_common_point(node, met);
+  return met;
 }
 
 PartsCertificate::Inside read_inside(const JsonNode& node) {
@@ -78,10 +57,7 @@ OrderedJson step_to_json(const Step& step) {
 OrderedJson met_to_json(const PartsCertificate::Met& met) {
   OrderedJson out;
   out["parts"] = {met.parts.a, met.parts.b};
-  out["generators_a"] = generators_to_json(met.a);
-  out["generators_b"] = generators_to_json(met.b);
-  out["closest"] = terms_to_json(met.closest);
-  out["surface"] = surface_to_json(met.surface);
+  add_common_point(out, met);
   return out;
 }
 

@@ -95,12 +95,9 @@ oracle::TimeFraction read_fraction(const JsonNode& node) {
 }
 
 CastAnswer read_cast_answer(const JsonNode& node) {
-  constexpr std::string_view expected = "hit, miss or unknown";
-  const std::string& text = node.text(expected);
-  for (const CastAnswer answer : {CastAnswer::hit, CastAnswer::miss, CastAnswer::unknown}) {
-    if (text == to_string(answer)) return answer;
-  }
-  node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+  constexpr Names<CastAnswer, 3> names = {
+      {{"hit", CastAnswer::hit}, {"miss", CastAnswer::miss}, {"unknown", CastAnswer::unknown}}};
+  return read_name(node, names, "hit, miss or unknown");
 }
 
 oracle::DifferencePoint read_point(const JsonNode& node) {

@@ -2,7 +2,11 @@
 // surfaces of them. certificates.h has their forms.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "algorithms/oracle/certificates/cast_certificate.h"
@@ -59,6 +63,45 @@ OrderedJson integers_to_json(const std::array<oracle::Integer, size>& integers) 
   OrderedJson list = OrderedJson::array();
   for (const oracle::Integer& part : integers) list.push_back(part.str());
   return list;
+}
+
+// Words for values.
+template <class Value, std::size_t size>
+using Names = std::array<std::pair<std::string_view, Value>, size>;
+
+template <class Value, std::size_t size>
+Value read_name(const JsonNode& node, const Names<Value, size>& names, std::string_view expected) {
+  const std::string& text = node.text(expected);
+  for (const auto& [name, value] : names) {
+    if (text == name) return value;
+  }
+  node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+}
+
+template <class Value, std::size_t size>
+std::string_view name_of(Value asked, const Names<Value, size>& names) {
+  for (const auto& [name, value] : names) {
+    if (value == asked) return name;
+  }
+  return "";
+}
+
+// What proves that two bodies have a common point, or are so far apart: the generators of both, and the closest
+// point and the surface of their difference.
+template <class Proof>
+void read_common_point(const JsonNode& node, Proof& proof) {
+  proof.a = read_generators(node.at("generators_a", "an array"));
+  proof.b = read_generators(node.at("generators_b", "an array"));
+  proof.closest = read_terms(node.at("closest", "an array"));
+  proof.surface = read_surface(node.at("surface", "an object with \"points\" and \"triangles\""));
+}
+
+template <class Proof>
+void add_common_point(OrderedJson& out, const Proof& proof) {
+  out["generators_a"] = generators_to_json(proof.a);
+  out["generators_b"] = generators_to_json(proof.b);
+  out["closest"] = terms_to_json(proof.closest);
+  out["surface"] = surface_to_json(proof.surface);
 }
 
 // What all certificates of rays begin with, as JSON.

@@ -16,27 +16,19 @@ namespace {
 using oracle::SceneRayCertificate;
 using RayStep = SceneRayCertificate::Step;
 
-constexpr std::array<std::pair<std::string_view, RayStep::Kind>, 4> ray_steps = {
-    {{"halve", RayStep::Kind::halve},
-     {"body", RayStep::Kind::body},
-     {"own", RayStep::Kind::own_plane},
-     {"triangle", RayStep::Kind::triangle}}};
+constexpr Names<RayStep::Kind, 4> ray_steps = {{{"halve", RayStep::Kind::halve},
+                                                {"body", RayStep::Kind::body},
+                                                {"own", RayStep::Kind::own_plane},
+                                                {"triangle", RayStep::Kind::triangle}}};
 
 RayStep read_ray_step(const JsonNode& node) {
   if (node.value().is_array()) return {RayStep::Kind::plane, read_integers<3>(node)};
-  constexpr std::string_view expected = "halve, body, own, triangle or a direction";
-  const std::string& text = node.text(expected);
-  for (const auto& [name, kind] : ray_steps) {
-    if (text == name) return {kind, {}};
-  }
-  node.fail(fmt::format("found {}; expected {}", node.found(), expected));
+  return {read_name(node, ray_steps, "halve, body, own, triangle or a direction"), {}};
 }
 
 OrderedJson ray_step_to_json(const RayStep& step) {
-  for (const auto& [name, kind] : ray_steps) {
-    if (step.kind == kind) return name;
-  }
-  return integers_to_json(step.direction);
+  if (step.kind == RayStep::Kind::plane) return integers_to_json(step.direction);
+  return name_of(step.kind, ray_steps);
 }
 
 SceneRayCertificate::Cover read_cover(const JsonNode& node) {
@@ -142,21 +134,10 @@ std::uint32_t read_triangle_number(const JsonNode& node) {
 
 using Claim = PointCertificate::Claim;
 constexpr std::string_view expected_claims = "nearest, surface, inside or outside";
-constexpr std::array<std::pair<std::string_view, Claim>, 4> claims = {
-    {{"nearest", Claim::nearest},
-     {"surface", Claim::surface},
-     {"inside", Claim::inside},
-     {"outside", Claim::outside}}};
-
-Claim read_claim(const JsonNode& node) {
-  const std::string& text = node.text(expected_claims);
-  for (const auto& [name, claim] : claims) {
-    if (text == name) return claim;
-  }
-  node.fail(fmt::format("found {}; expected {}", node.found(), expected_claims));
-}
-
-std::string_view name_of(Claim claim) { return claims[static_cast<std::size_t>(claim)].first; }
+constexpr Names<Claim, 4> claims = {{{"nearest", Claim::nearest},
+                                     {"surface", Claim::surface},
+                                     {"inside", Claim::inside},
+                                     {"outside", Claim::outside}}};
 
 std::shared_ptr<const TriangleMesh> read_mesh_alone(const JsonNode& shape) {
   shape.as_object("a mesh");
@@ -192,7 +173,7 @@ StoredPointCertificate read_at(const JsonNode& line) {
   stored.point = read_index(line.at("point", "the number of a point"));
   PointCertificate& certificate = stored.certificate;
   certificate.point = line.at("at", "an array of 3 numbers").vector();
-  certificate.claim = read_claim(line.at("claim", expected_claims));
+  certificate.claim = read_name(line.at("claim", expected_claims), claims, expected_claims);
   if (certificate.claim == Claim::surface) return stored;
   if (certificate.claim != Claim::nearest) {
     certificate.winding = read_winding(line.at("winding", "how often the surface winds"));
@@ -229,7 +210,7 @@ std::string to_json(const StoredPointCertificate& stored) {
   OrderedJson out;
   out["point"] = stored.point;
   out["at"] = {certificate.point.x(), certificate.point.y(), certificate.point.z()};
-  out["claim"] = name_of(certificate.claim);
+  out["claim"] = name_of(certificate.claim, claims);
   if (certificate.claim == Claim::inside || certificate.claim == Claim::outside) {
     out["winding"] = certificate.winding;
   } else if (certificate.triangle != oracle::no_triangle) {

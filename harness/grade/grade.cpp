@@ -61,6 +61,7 @@ std::string_view to_string(Verdict verdict) {
 
 Verdict judge(const Outcome& outcome, Answer exact, Touching touching) {
   switch (outcome.status) {
+    case Status::garbage:  // its program is ended then, as after a crash
     case Status::crashed: return Verdict::crashed;
     case Status::timed_out: return Verdict::timed_out;
     case Status::unsupported: return Verdict::unsupported;

@@ -77,23 +77,6 @@ void keep_greater(double& worst, double value) {
   if (std::isnan(worst) || value > worst) worst = std::isnan(value) ? worst : value;
 }
 
-AnswerCount::AnswerCount()
-    : resolution(Grade::none),
-      honest_margin(Grade::none),
-      margin(Grade::none),
-      margin_end(Grade::none),
-      distance(Grade::none),
-      distance_end(Grade::none),
-      too_deep(Grade::none),
-      too_shallow(Grade::none),
-      depth_end(Grade::none),
-      does_not_separate(Grade::none),
-      excess(Grade::none),
-      bounds_missed(Grade::none),
-      witness(Grade::none),
-      witness_length(Grade::none),
-      normal(Grade::none) {}
-
 void AnswerCount::add(const GradedAnswer& answer) {
   const Grade& given = answer.given;
   const Grade& end = answer.end_to_end;

@@ -60,21 +60,23 @@ struct AnswerCount {
   std::int64_t touching_contact = 0;   // number of these that are contact
   std::int64_t bounds = 0;             // certified bounds that miss the exact value
   std::int64_t not_a_number = 0;
-  std::int64_t beyond = 0;        // answers of ours beyond the documented margins
-  double resolution;              // distance between the bounds of `touching`
-  double honest_margin;           // exact |signed distance| of an honest failure
-  double margin, margin_end;      // exact |signed distance| with a wrong verdict
-  double distance, distance_end;  // |error| of a gap
-  double too_deep, too_shallow;   // errors of a depth, both >= 0, against the given problem
-  double depth_end;               // |error| of a depth, against the case
-  double does_not_separate;       // distance by which the reported translation fails to separate
-  double excess;                  // length of that translation beyond the necessary one
-  double bounds_missed;           // distance by which certified bounds miss, against the case
+  std::int64_t beyond = 0;             // answers of ours beyond the documented margins
+  double resolution = Grade::none;     // distance between the bounds of `touching`
+  double honest_margin = Grade::none;  // exact |signed distance| of an honest failure
+  double margin = Grade::none,
+         margin_end = Grade::none;  // exact |signed distance| with a wrong verdict
+  double distance = Grade::none, distance_end = Grade::none;  // |error| of a gap
+  double too_deep = Grade::none,
+         too_shallow = Grade::none;  // errors of a depth, both >= 0, against the given problem
+  double depth_end = Grade::none;    // |error| of a depth, against the case
+  double does_not_separate =
+      Grade::none;              // distance by which the reported translation fails to separate
+  double excess = Grade::none;  // length of that translation beyond the necessary one
+  double bounds_missed = Grade::none;  // distance by which certified bounds miss, against the case
   // Greatest distance of a point from its body; | |a - b| less the distance |.
-  double witness, witness_length;
-  double normal;  // | |n| - 1 |
+  double witness = Grade::none, witness_length = Grade::none;
+  double normal = Grade::none;  // | |n| - 1 |
 
-  AnswerCount();
   void add(const GradedAnswer& answer);
   void add(const AnswerCount& other);
 };

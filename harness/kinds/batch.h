@@ -32,6 +32,8 @@ struct Family {
   // Of a family that is a value of an axis, along which one property grows; empty for others. The values
   // of an axis follow each other.
   std::string axis = {}, value = {};
+  // What its kind draws the cases by, if that is more than its number, such as a Regime.
+  const void* drawn = nullptr;
 };
 
 // A value of an axis.
@@ -71,13 +73,15 @@ std::vector<Family> families_of(std::span<const DrawnFamily<Case>> drawn) {
   return list;
 }
 
+inline constexpr std::uint8_t every_task = 0xff;
+
 // An algorithm under test: an entry of the registry, its scalar, and what it is asked.
 struct Contestant {
   const Kind* kind = nullptr;
   const AlgorithmInfo* info = nullptr;
   const void* entry = nullptr;  // what the kind's contract calls an entry, such as RayCastEntry
   Precision scalar = Precision::float64;
-  std::uint8_t task = 0;  // place in the kind's tasks
+  std::uint8_t task = 0;  // place in the kind's tasks, or every_task
   // True if it is ours and promises that what it does not give up is right.
   bool promised = false;
 
@@ -87,7 +91,7 @@ struct Contestant {
     return *static_cast<const Entry*>(entry);
   }
   std::string_view task_name() const;
-  std::string name() const;  // such as "wide-bvh double closest"
+  std::string name() const;  // such as "wide-bvh double closest", or "gjk double" of every task
 };
 
 // The same case in another form, which has the same exact answer. A form is asked where it is exact; turning
@@ -104,6 +108,9 @@ inline constexpr std::array all_case_forms = {CaseForm::as_drawn, CaseForm::swap
                                               CaseForm::scaled,   CaseForm::moved,
                                               CaseForm::reversed, CaseForm::split};
 std::string_view to_string(CaseForm form);
+
+// True for every fifth case, which is sampled: it is also asked in other forms, and its exact answer is proven.
+inline bool is_sampled(std::uint64_t index) { return index % 5 == 0; }
 
 // Cases `first` to `first` + `count` - 1.
 struct BatchRange {

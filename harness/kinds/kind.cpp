@@ -9,6 +9,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
+#include "harness/kinds/checker.h"
 #include "harness/kinds/grade.h"
 
 namespace touchstone::kinds {
@@ -16,6 +17,13 @@ namespace touchstone::kinds {
 std::span<const Kind* const> kinds() {
   static const std::array<const Kind*, 6> all = {&mesh_kind(), &ray_kind(),     &point_kind(),
                                                  &cast_kind(), &feature_kind(), &scene_ray_kind()};
+  return all;
+}
+
+std::span<const Kind* const> checked_kinds() {
+  static const std::array<const Kind*, 8> all = {&pair_kind(),      &mesh_kind(), &ray_kind(),
+                                                 &point_kind(),     &cast_kind(), &feature_kind(),
+                                                 &scene_ray_kind(), &box_kind()};
   return all;
 }
 
@@ -41,10 +49,6 @@ const Kind* find_in(std::span<const Kind* const> list, std::string_view name) {
 const Kind* find_kind(std::string_view name) { return find_in(kinds(), name); }
 const Kind* find_asked_kind(std::string_view name) { return find_in(asked_kinds(), name); }
 
-bool Kind::verify(const std::string& proofs, const std::filesystem::path& /*file*/) const {
-  throw base::InputError(proofs, 0, fmt::format("the kind {} has no proofs", name()));
-}
-
 std::span<const Family> Kind::families() const {
   if (families_.empty()) {
     families_ = list_families();
@@ -60,7 +64,7 @@ namespace {
 
 std::vector<const Family*> chosen_families(bool of_axes) {
   std::vector<const Family*> chosen;
-  for (const Kind* kind : kinds()) {
+  for (const Kind* kind : checked_kinds()) {
     for (const Family& family : kind->families()) {
       if (family.axis.empty() != of_axes) chosen.push_back(&family);
     }
@@ -76,7 +80,9 @@ std::vector<const Family*> axis_families() { return chosen_families(true); }
 std::string_view Contestant::task_name() const { return kind->tasks()[task]; }
 
 std::string Contestant::name() const {
-  return fmt::format("{} {} {}", info->name, to_string(scalar), task_name());
+  std::string text = fmt::format("{} {}", info->name, to_string(scalar));
+  if (task != every_task) text += fmt::format(" {}", task_name());
+  return text;
 }
 
 std::string_view to_string(CaseForm form) {
@@ -123,17 +129,12 @@ void GradeCount::add(const Graded& graded, std::int64_t index) {
 }
 
 void GradeCount::add(const GradeCount& other) {
-  cases += other.cases;
-  contacts += other.contacts;
-  unresolved += other.unresolved;
-  right += other.right;
-  near += other.near;
-  missed += other.missed;
-  false_hits += other.false_hits;
-  inexact += other.inexact;
-  bound += other.bound;
-  gave_up += other.gave_up;
-  failed += other.failed;
+  for (const auto count :
+       {&GradeCount::cases, &GradeCount::contacts, &GradeCount::unresolved, &GradeCount::right,
+        &GradeCount::near, &GradeCount::missed, &GradeCount::false_hits, &GradeCount::inexact,
+        &GradeCount::bound, &GradeCount::gave_up, &GradeCount::failed}) {
+    this->*count += other.*count;
+  }
   if (first_wrong < 0) first_wrong = other.first_wrong;
 }
 

@@ -23,6 +23,9 @@ class Verdicts {
   // before that is thrown on. Returns true if none is refused.
   bool of(const std::function<void()>& read);
 
+  std::int64_t verified() const { return verified_; }
+  std::int64_t refused() const { return refused_; }
+
  private:
   void print(const std::string& until) const;
 

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "harness/base/error.h"
+#include "harness/base/input_file.h"
+#include "harness/geometry/mesh.h"
 
 namespace touchstone::kinds {
 
@@ -63,6 +66,20 @@ std::string needed_target(const QuestionInput& input) {
         "--in is missing; expected the mesh, or for rays the mesh or the scene, that is asked");
   }
   return input.text("--in");
+}
+
+TriangleMesh read_target_mesh(const QuestionInput& input) {
+  const std::string file = needed_target(input);
+  geometry::Mesh read = geometry::read_surface(file);
+  tell_extent(file, read.vertices);
+  return {std::move(read.vertices), std::move(read.triangles)};
+}
+
+double finite_number(const files::CsvReader::Row& row, std::size_t column) {
+  const double value = row.number(column);
+  if (std::isfinite(value)) return value;
+  row.fail(fmt::format("column {}: found {}; expected a finite number", row.name(column),
+                       base::shortened(row.text(column))));
 }
 
 Proving Questions::proving() const {

@@ -140,6 +140,22 @@ class Questions {
   virtual Proving proving() const;
 };
 
+// The mesh of --in.
+TriangleMesh read_target_mesh(const QuestionInput& input);
+
+// Returns a number of a row. Throws InputError if it is not finite.
+double finite_number(const files::CsvReader::Row& row, std::size_t column);
+
+// Writes a number; an empty field where there is none.
+template <class Number>
+void write_if(files::CsvWriter& csv, bool is_there, Number number) {
+  if (is_there) {
+    csv.field(static_cast<std::int64_t>(number));
+  } else {
+    csv.field("");
+  }
+}
+
 // What is read from a mesh file, in the file's units, which are taken for metres: prints its size, to standard error,
 // so that a body of ten metres that was meant to be one of ten millimetres is seen.
 void tell_extent(const std::string& file, std::span<const Vec3d> vertices);
@@ -184,6 +200,16 @@ class AnswersOf : public Questions {
   }
   const Answer& answer(std::size_t question, std::size_t contestant) const {
     return asked_[contestant].answers[question];
+  }
+
+  // The names of the algorithms that are asked and for which `lacks` holds.
+  template <class Lacks>
+  std::vector<std::string> names_where(const Lacks& lacks) const {
+    std::vector<std::string> names;
+    for (const Asked& asked : asked_) {
+      if (lacks(*asked.entry)) names.push_back(asked.entry->info.name);
+    }
+    return names;
   }
 
   // Asks the questions that `takes`. `setup` returns, in the child process, a function from a question to its answer.

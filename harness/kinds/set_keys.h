@@ -19,6 +19,7 @@
 #include "harness/base/hash.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
+#include "harness/kinds/timed_set.h"
 
 namespace touchstone::kinds {
 
@@ -49,15 +50,29 @@ inline std::vector<double> listed_numbers(files::TomlTable& table, std::string_v
   return numbers;
 }
 
-// The entries that the key `algorithms` names; ours and the peers' without it.
+// The entries that the key names; without it those of `fallback`.
 template <class Entry>
 std::vector<const Entry*> selected(files::TomlTable& table, std::span<const Entry> entries,
-                                   std::string_view what) {
+                                   std::string_view what, std::string_view key = "algorithms",
+                                   const std::vector<std::string>& fallback = {"ours", "peers"}) {
   try {
-    return kinds::select(entries, table.texts("algorithms", {"ours", "peers"}), what);
+    return kinds::select(entries, table.texts(key, fallback), what);
   } catch (const base::InputError& error) {
-    table.fail("algorithms", error.what());
+    table.fail(key, error.what());
   }
+}
+
+// The contestant that an entry is in a scalar, without its functions. Its name has the scalar where it offers several.
+template <class Entry>
+TimedContestant contestant_in(const Entry& entry, Precision scalar = Precision::float64) {
+  TimedContestant made;
+  made.name = entry.info.name;
+  if constexpr (requires { entry.scalars; }) {
+    if (entry.scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
+  }
+  made.origin = entry.info.origin;
+  made.approximate = !entry.info.known_defect.empty();
+  return made;
 }
 
 // Hashes of answers, by which those of two samples are compared.

@@ -20,7 +20,6 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -35,6 +34,7 @@ std::string_view to_string(ItemState state) {
     case ItemState::threw: return "threw";
     case ItemState::crashed: return "crashed";
     case ItemState::timed_out: return "timed_out";
+    case ItemState::garbage: return "garbage";
     case ItemState::not_run:
     case ItemState::running: break;
   }
@@ -42,8 +42,12 @@ std::string_view to_string(ItemState state) {
 }
 
 Status status_of(ItemState state) {
-  if (state == ItemState::done) return Status::ok;
-  return state == ItemState::timed_out ? Status::timed_out : Status::crashed;
+  switch (state) {
+    case ItemState::done: return Status::ok;
+    case ItemState::timed_out: return Status::timed_out;
+    case ItemState::garbage: return Status::garbage;
+    default: return Status::crashed;
+  }
 }
 
 std::string IsolationFailure::reason() const {
@@ -51,6 +55,7 @@ std::string IsolationFailure::reason() const {
   switch (state) {
     case ItemState::timed_out: text = "no answer in time"; break;
     case ItemState::threw: text = "threw"; break;
+    case ItemState::garbage: text = "answered garbage"; break;
     default:
       text = signal != 0 ? fmt::format("killed by signal {} ({})", signal, strsignal(signal))
                          : fmt::format("left by exit({})", exit_code);
@@ -128,11 +133,11 @@ ChildProcess::ChildProcess(const Settings& settings, const std::function<void()>
 // This function never returns: files, buffers and exit handlers of the parent are not the child's.
 void ChildProcess::run(pid_t parent, int output, const Settings& settings,
                        const std::function<void()>& work) {
-  const auto keep = [&](std::string_view what) {
+  const auto keep = [&](std::string_view what, ItemState state = ItemState::threw) {
     Thrown& thrown = thrown_[0];
     const std::size_t size = std::min(what.size(), thrown.text.size() - 1);
     std::copy_n(what.data(), size, thrown.text.data());
-    thrown.is_set = true;
+    thrown.state = state;
   };
   try {
     settings.before();
@@ -140,6 +145,8 @@ void ChildProcess::run(pid_t parent, int output, const Settings& settings,
     allow_memory(settings.memory);
     work();
     _exit(EXIT_SUCCESS);
+  } catch (const Garbage& error) {
+    keep(error.what(), ItemState::garbage);
   } catch (const std::exception& error) {
     keep(error.what());
   } catch (...) {
@@ -206,9 +213,9 @@ IsolationFailure ChildProcess::failure() {
   failure.words = text_;
   if (stopped_) {
     failure.state = ItemState::timed_out;
-  } else if (thrown_[0].is_set) {
-    failure.state = ItemState::threw;
-    failure.words = thrown_[0].text.data();
+  } else if (thrown_[0].state != ItemState::not_run) {
+    failure.state = thrown_[0].state;
+    failure.words = thrown_[0].text.data() + (text_.empty() ? "" : ": " + text_);
   } else if (WIFSIGNALED(status_)) {
     failure.signal = WTERMSIG(status_);
   } else if (WIFEXITED(status_)) {

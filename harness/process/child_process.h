@@ -14,6 +14,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -60,18 +61,25 @@ enum class ItemState : std::uint8_t {
   threw,      // its work, or the setup before it, threw
   crashed,    // its work ended the child: a signal, an assertion, exit()
   timed_out,  // it was stopped
+  garbage,    // its work threw Garbage
 };
 
-// Returns "ok" for `done`, "threw", "crashed" or "timed_out"; "not_run" for work that did not end.
+// Thrown by work that got an answer which cannot be read.
+class Garbage : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Returns "ok" for `done`, "threw", "crashed", "timed_out" or "garbage"; "not_run" for work that did not end.
 std::string_view to_string(ItemState state);
 
 // The status of an answer whose item ended in this state: ok for `done`, timed_out for a stopped
-// item, crashed for all else.
+// item, garbage for what cannot be read, crashed for all else.
 Status status_of(ItemState state);
 
-// Returns whether an answer is missing because the query ended its process or was stopped.
+// Returns whether an answer is missing because the query ended its process or was stopped, or cannot be read.
 inline bool is_lost(Status status) {
-  return status == Status::crashed || status == Status::timed_out;
+  return status == Status::crashed || status == Status::timed_out || status == Status::garbage;
 }
 
 struct IsolationFailure {
@@ -81,7 +89,7 @@ struct IsolationFailure {
   ItemState state = ItemState::crashed;
   int signal = 0;     // signal that ended the child, or 0
   int exit_code = 0;  // status of a child that left by exit()
-  std::string words;  // text of the exception, or the last output of the child; may be empty
+  std::string words;  // text of the exception, and the last output of the child; may be empty
 
   // Returns words such as "killed by signal 11 (Segmentation fault)" or "no answer in time".
   std::string reason() const;
@@ -130,7 +138,7 @@ class ChildProcess {
 
  private:
   struct Thrown {
-    bool is_set;
+    ItemState state;  // threw or garbage; not_run if nothing was thrown
     std::array<char, kept_words> text;
   };
 

@@ -39,6 +39,7 @@ enum class RowStatus : std::uint8_t {
   not_reported,
   crashed,
   timed_out,
+  garbage,
   wrong,
 };
 std::string_view to_string(RowStatus status);
@@ -113,8 +114,11 @@ struct RawRow {
   bool is_of_set() const { return !query_kind.empty(); }
   // What the seconds of a sample are divided by: frames of a broad phase, else queries.
   std::int64_t units() const { return is_narrow() || is_of_set() ? pair_count : frames; }
-  // Returns true if the algorithm crashed or was stopped, so that it has no further answers.
-  bool lost() const { return status == RowStatus::crashed || status == RowStatus::timed_out; }
+  // Returns true if the algorithm crashed, was stopped or cannot be read, so that it has no further answers.
+  bool lost() const {
+    return status == RowStatus::crashed || status == RowStatus::timed_out ||
+           status == RowStatus::garbage;
+  }
   bool wrong() const { return status == RowStatus::wrong; }
 };
 

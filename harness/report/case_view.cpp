@@ -42,6 +42,24 @@ Subject subject_of(const files::Case& c, std::uint64_t index, oracle::Oracle& or
   return subject;
 }
 
+OrderedJson answer_view(const AlgorithmInfo& info, Precision scalar, std::string_view task,
+                        const Outcome& outcome, std::string_view grade, std::string why) {
+  return {{"algorithm", info.name},
+          {"origin", to_string(info.origin)},
+          {"scalar", to_string(scalar)},
+          {"task", task},
+          {"answer", to_string(outcome.answer)},
+          {"status", to_string(outcome.status)},
+          {"distance", number(outcome.distance)},
+          {"lower", number(outcome.lower)},
+          {"upper", number(outcome.upper)},
+          {"normal", triple(outcome.normal)},
+          {"witness_a", triple(outcome.witness_a)},
+          {"witness_b", triple(outcome.witness_b)},
+          {"grade", grade},
+          {"why", std::move(why)}};
+}
+
 OrderedJson answer_view(const NarrowPhaseEntry& entry, Precision scalar, Task task,
                         const Outcome& outcome, Subject& subject) {
   const grade::Query query = {.regime = 0, .entry = 0, .scalar = scalar, .task = task};
@@ -52,20 +70,9 @@ OrderedJson answer_view(const NarrowPhaseEntry& entry, Precision scalar, Task ta
   const bool is_excused = of_answer == grade::AnswerClass::right &&
                           graded.given.verdict == grade::Verdict::silent_error;
   const bool is_right = of_answer == grade::AnswerClass::right && !is_excused;
-  return {{"algorithm", entry.info.name},
-          {"origin", to_string(entry.info.origin)},
-          {"scalar", to_string(scalar)},
-          {"task", to_string(task)},
-          {"answer", to_string(outcome.answer)},
-          {"status", to_string(outcome.status)},
-          {"distance", number(outcome.distance)},
-          {"lower", number(outcome.lower)},
-          {"upper", number(outcome.upper)},
-          {"normal", triple(outcome.normal)},
-          {"witness_a", triple(outcome.witness_a)},
-          {"witness_b", triple(outcome.witness_b)},
-          {"grade", is_excused ? "approximate" : to_string(of_answer)},
-          {"why", is_right ? std::string() : grade::describe(entry, graded, false)}};
+  return answer_view(entry.info, scalar, to_string(task), outcome,
+                     is_excused ? "approximate" : to_string(of_answer),
+                     is_right ? std::string() : grade::describe(entry, graded, false));
 }
 
 // The proof of a pair; its parts that do not apply are null. The plane lies half way between the
@@ -127,6 +134,13 @@ std::string from_project(const std::filesystem::path& file) {
   return inside.empty() || inside.begin()->string() == ".." ? whole.string() : inside.string();
 }
 
+OrderedJson truth_view(const Outcome& truth) {
+  return {{"answer", to_string(truth.answer)},
+          {"lower", number(truth.lower)},
+          {"upper", number(truth.upper)},
+          {"normal", triple(truth.normal)}};
+}
+
 OrderedJson case_view(const ListedCase& listed, const std::filesystem::path& folder,
                       Subject& subject) {
   const files::Case& c = listed.c;
@@ -144,11 +158,7 @@ OrderedJson case_view(const ListedCase& listed, const std::filesystem::path& fol
                          base::shell_word(c.id), to_string(subject.measure()))},
       {"a", body_view(c.shape_a, c.pose_a)},
       {"b", body_view(c.shape_b, c.pose_b)},
-      {"truth",
-       {{"answer", to_string(truth.answer)},
-        {"lower", number(truth.lower)},
-        {"upper", number(truth.upper)},
-        {"normal", triple(truth.normal)}}},
+      {"truth", truth_view(truth)},
       {"proof", proof_view(truth)},
       {"answers", std::move(subject.answers)}};
 }
@@ -197,7 +207,7 @@ std::string_view word_of(kinds::Grade grade, Status status, bool is_approximate)
     case kinds::Grade::inexact: return "right";  // the page judges the verdicts of meshes
     case kinds::Grade::missed:
     case kinds::Grade::false_hit: return is_approximate ? "approximate" : "silent";
-    case kinds::Grade::failed: return status == Status::crashed ? "crashed" : "hung";
+    case kinds::Grade::failed: return status == Status::timed_out ? "hung" : "crashed";
     case kinds::Grade::not_asked:
     case kinds::Grade::unresolved:
     case kinds::Grade::gave_up: break;
@@ -247,20 +257,10 @@ OrderedJson concave_pair_view(const AskedPair& pair, double time_limit) {
     const kinds::Grade grade = kinds::grade_mesh(asked[i].task, mesh_answer(outcome), exact, &exact,
                                                  asked[i].scalar, reach)
                                    .grade;
-    answers.push_back({{"algorithm", asked[i].entry->info.name},
-                       {"origin", to_string(asked[i].entry->info.origin)},
-                       {"scalar", to_string(asked[i].scalar)},
-                       {"task", asked[i].task == ConcaveTask::distance ? "distance" : "intersect"},
-                       {"answer", to_string(outcome.answer)},
-                       {"status", to_string(outcome.status)},
-                       {"distance", number(outcome.distance)},
-                       {"lower", number(outcome.lower)},
-                       {"upper", number(outcome.upper)},
-                       {"normal", triple(outcome.normal)},
-                       {"witness_a", triple(outcome.witness_a)},
-                       {"witness_b", triple(outcome.witness_b)},
-                       {"grade", word_of(grade, outcome.status, asked[i].entry->approximate)},
-                       {"why", reason_of(grade, truth)}});
+    answers.push_back(answer_view(
+        asked[i].entry->info, asked[i].scalar,
+        asked[i].task == ConcaveTask::distance ? "distance" : "intersect", outcome,
+        word_of(grade, outcome.status, asked[i].entry->approximate), reason_of(grade, truth)));
   }
   return {{"id", pair.c.id},
           {"source", pair.source},
@@ -269,11 +269,7 @@ OrderedJson concave_pair_view(const AskedPair& pair, double time_limit) {
           {"query", pair.command},
           {"a", concave_body_view(pair.c.a, pair.c.pose_a)},
           {"b", concave_body_view(pair.c.b, pair.c.pose_b)},
-          {"truth",
-           {{"answer", to_string(truth.answer)},
-            {"lower", number(truth.lower)},
-            {"upper", number(truth.upper)},
-            {"normal", triple(truth.normal)}}},
+          {"truth", truth_view(truth)},
           {"proof", proof_view(truth)},
           {"answers", std::move(answers)}};
 }

@@ -6,7 +6,6 @@
 
 #include "harness/base/clock.h"
 #include "harness/check/check_file.h"
-#include "harness/check/check_job.h"
 #include "harness/check/check_run.h"
 #include "harness/process/worker_pool.h"
 #include "harness/shards/work.h"
@@ -26,14 +25,14 @@ std::vector<double> estimate_of(CheckRequest request) {
     times = static_cast<double>(before) / request.cases;
   }
   const auto period = static_cast<std::int64_t>(request.period());
+  const check::CheckReport report(request);
   std::vector<double> seconds;
   process::run_jobs<double>(
       0, static_cast<std::size_t>(std::min(period, request.job_count())), request.workers,
       [&] {
-        const auto oracle = std::make_shared<oracle::Oracle>();
-        return [&request, oracle](std::size_t job) {
+        return [&](std::size_t job) {
           const base::Stopwatch watch;
-          check::do_job(request, job, *oracle);
+          report.do_job(job);
           return watch.seconds();
         };
       },

@@ -39,7 +39,7 @@ std::optional<std::size_t> fastest(const CellTimes& cell, std::string_view origi
 
 // The ratio of the times of a and b.
 MedianInterval ratio_of(const Contestant& a, const Contestant& b, Noise noise) {
-  return exponential(median_interval(paired_log_ratios(a, b, noise), cell_confidence));
+  return exponential(median_interval(paired_log_ratios(a, b, noise), usual_confidence));
 }
 
 void compare(CellTimes& cell) {
@@ -98,7 +98,7 @@ void take_times(CellTimes& cell) {
     std::vector<double> seconds;
     for (const auto& [square, value] : by_square(contestant, cell.noise)) seconds.push_back(value);
     if (seconds.empty()) continue;
-    const MedianInterval time = median_interval(seconds, cell_confidence);
+    const MedianInterval time = median_interval(seconds, usual_confidence);
     row.seconds = time.median;
     row.low = time.low;
     row.high = time.high;
@@ -112,14 +112,7 @@ void add_sample(Contestant& contestant, const record::RawRow& row) {
   contestant.origin = row.origin;
   if (row.lost() || row.wrong()) contestant.failure = row.status;
   if (!(row.seconds >= 0)) return;
-  Sample sample;
-  sample.process = row.process;
-  sample.square = row.square;
-  sample.round = row.round;
-  sample.position = row.position;
-  sample.units = static_cast<double>(row.units());
-  sample.noisy = !row.noise.empty() && row.noise != "canary";
-  add_phase(contestant, row.phase, sample, row.seconds);
+  add_phase(contestant, row);
 }
 
 std::vector<CellTimes> read_cell_times(const std::filesystem::path& folder) {
@@ -206,7 +199,7 @@ Results read_cell_results(const std::filesystem::path& folder_or_file) {
       for (Contestant& each : set.contestants)
         if (each.label == row.algorithm) contestant = &each;
       if (contestant != nullptr && row.is_twin()) contestant = &set.twin;
-      if (row.noise.ends_with("canary")) set.suspect = true;
+      if (row.noise.ends_with(canary_flag)) set.suspect = true;
       if (!row.stop.empty()) set.stop = row.stop;
     }
     if (contestant == nullptr)

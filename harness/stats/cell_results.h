@@ -14,8 +14,6 @@
 
 namespace touchstone::stats {
 
-inline constexpr double cell_confidence = 0.95;
-
 struct CellTimes {
   std::pair<std::string, std::string> name;       // group, cell
   std::vector<CellTimeRow> rows;                  // in the order of the grades

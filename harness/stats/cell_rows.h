@@ -10,19 +10,18 @@
 
 namespace touchstone::stats {
 
-// set_grades.csv: one algorithm's answers to one cell.
-struct GradeRow {
+// set_grades.csv: one algorithm's answers to one cell. `cases` and the other counts without a column stay 0.
+struct GradeRow : kinds::GradeCount {
   std::string group, cell, algorithm, origin;
   bool approximate = false;
   std::int64_t queries = 0;
   std::string truth;
-  std::int64_t graded = 0, near = 0, missed = 0, false_hits = 0, inexact = 0, bound = 0;
-  std::int64_t gave_up = 0, unresolved = 0;
+  std::int64_t graded = 0;
   double error = Outcome::none;
   std::int64_t hits = -1, true_hits = -1;
   std::string hit_hash, status;
 
-  bool is_right() const { return missed == 0 && false_hits == 0 && inexact == 0; }
+  bool is_right() const { return silent() == 0; }
 };
 template <record::row_of<GradeRow> Row, class Visit>
 void columns(Row& row, Visit visit) {

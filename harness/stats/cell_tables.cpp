@@ -64,7 +64,7 @@ std::vector<CellSpeedUpRow> cell_speed_ups(std::span<const CellTimes> cells) {
       const Noise noise = one->noise == Noise::kept ? Noise::kept : cell.noise;
       const std::vector<double> logs = paired_log_ratios(alone->second, own->second, noise);
       if (logs.empty()) continue;
-      const MedianInterval ratio = exponential(median_interval(logs, cell_confidence));
+      const MedianInterval ratio = exponential(median_interval(logs, usual_confidence));
       all.push_back({cell.name.first, std::string(name.rest), row.grade.algorithm, row.grade.origin,
                      name.threads, ratio.median, ratio.low, ratio.high});
     }

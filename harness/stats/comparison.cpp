@@ -180,7 +180,7 @@ void correct(std::vector<ComparedCell>& cells) {
 double log_of_run(const Results& run, const SetKey& key, const std::string& label, Noise noise) {
   const SampleSet* const set = run.find(key);
   const Contestant* const contestant = set == nullptr ? nullptr : set->find(label);
-  if (contestant == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  if (contestant == nullptr) return nan;
   return median(logs(by_square(*contestant, noise)));
 }
 

@@ -27,11 +27,9 @@ constexpr std::array<std::int64_t record::RawRow::*, work_count> work_fields = {
     &record::RawRow::allocated_bytes};
 
 // The noise of a set's last row if the run's baseline and its twin differ significantly.
-constexpr std::string_view canary_flag = "canary";
-
 bool is_failure(std::optional<record::RowStatus> status) {
   return status == record::RowStatus::crashed || status == record::RowStatus::timed_out ||
-         status == record::RowStatus::wrong;
+         status == record::RowStatus::garbage || status == record::RowStatus::wrong;
 }
 
 // Leaves out the contestants that have checks alone, if their algorithms were timed on executors that
@@ -124,18 +122,8 @@ class Reader {
     expect_least("square", row.square, 0);
     expect_least("round", row.round, 0);
     expect_least("position", row.position, 0);
-    const std::int64_t units = row.units();
-    expect_least(row.is_narrow() ? "pair_count" : "frames", units, 1);
-    Sample sample;
-    sample.process = row.process;
-    sample.square = row.square;
-    sample.round = row.round;
-    sample.position = row.position;
-    sample.units = static_cast<double>(units);
-    sample.frame = row.frame;
-    sample.worst_frame = row.worst_frame;
-    sample.noisy = !row.noise.empty() && row.noise != canary_flag;
-    add_phase(contestant, row.phase, sample, row.seconds);
+    expect_least(row.is_narrow() ? "pair_count" : "frames", row.units(), 1);
+    add_phase(contestant, row);
   }
 
   SampleSet& set_of(const record::RawRow& row) {

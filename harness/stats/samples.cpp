@@ -49,6 +49,19 @@ void add_phase(Contestant& contestant, record::Phase phase, Sample sample, doubl
   if (!std::isnan(sample.worst_frame)) samples.back().worst_frame = sample.worst_frame;
 }
 
+void add_phase(Contestant& contestant, const record::RawRow& row) {
+  Sample sample;
+  sample.process = row.process;
+  sample.square = row.square;
+  sample.round = row.round;
+  sample.position = row.position;
+  sample.units = static_cast<double>(row.units());
+  sample.noisy = !row.noise.empty() && row.noise != canary_flag;
+  sample.frame = row.frame;
+  sample.worst_frame = row.worst_frame;
+  add_phase(contestant, row.phase, sample, row.seconds);
+}
+
 double Sample::seconds() const {
   double sum = nan;
   for (const double part : parts) {

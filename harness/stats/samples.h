@@ -157,6 +157,11 @@ std::map<std::string, Results> read_machines(const std::filesystem::path& folder
 // Adds a phase's seconds to its sample; the phases of one sample are consecutive. `sample`
 // identifies it, without its parts.
 void add_phase(Contestant& contestant, record::Phase phase, Sample sample, double seconds);
+// Adds that of a row.
+void add_phase(Contestant& contestant, const record::RawRow& row);
+
+// The flag of a round whose baseline differs from its twin; it disturbs no sample.
+inline constexpr std::string_view canary_flag = "canary";
 
 // Returns seconds a frame or a query, for each square: the median over the square's rounds. Noisy
 // rounds count only on request.

@@ -144,7 +144,8 @@ void PointStatistics::summarise(PointTimes& times) const {
       if (!stages_[i][k].empty()) point.stages[k] = stats::median(stages_[i][k]);
     }
     if (i == 0) {
-      const stats::MedianInterval interval = stats::median_interval(baseline, 0.95);
+      const stats::MedianInterval interval =
+          stats::median_interval(baseline, stats::usual_confidence);
       point.rounds = static_cast<std::int64_t>(baseline.size());
       point.seconds = interval.median;
       point.low = interval.low;
@@ -154,7 +155,8 @@ void PointStatistics::summarise(PointTimes& times) const {
     const std::vector<double> ratios = ratios_[i].chosen();
     point.rounds = static_cast<std::int64_t>(ratios.size());
     if (ratios.empty() || !point.ok()) continue;
-    const stats::MedianInterval interval = stats::exponential(stats::median_interval(ratios, 0.95));
+    const stats::MedianInterval interval =
+        stats::exponential(stats::median_interval(ratios, stats::usual_confidence));
     point.seconds = unit * interval.median;
     point.low = unit * interval.low;
     point.high = unit * interval.high;

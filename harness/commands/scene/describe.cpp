@@ -101,15 +101,21 @@ void describe(const DescribeOptions& options) {
   }
 }
 
-}  // namespace
-
-void add_scene_describe(Arguments command) {
+// Adds the options of a scene.
+std::shared_ptr<DescribeOptions> described(Arguments& command) {
   auto options = std::make_shared<DescribeOptions>();
   command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
       .required();
   command.number("--frames", options->overrides.frames, "Instead of the scene's own")
       .within(1, 1'000'000);
   add_scene_overrides(command, options->overrides);
+  return options;
+}
+
+}  // namespace
+
+void add_scene_describe(Arguments command) {
+  const auto options = described(command);
   command.footer("Sizes are the longest edges of the bodies' boxes in frame 0.");
   command.job([options] {
     describe(*options);
@@ -117,22 +123,8 @@ void add_scene_describe(Arguments command) {
   });
 }
 
-namespace {
-
-struct HashOptions {
-  std::string scene;
-  scene::SceneOverrides overrides;
-};
-
-}  // namespace
-
 void add_scene_hash(Arguments command) {
-  auto options = std::make_shared<HashOptions>();
-  command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, or .aabbs")
-      .required();
-  command.number("--frames", options->overrides.frames, "Instead of the scene's own")
-      .within(1, 1'000'000);
-  add_scene_overrides(command, options->overrides);
+  const auto options = described(command);
   command.job([options] {
     fmt::print("{}\n", scene::scene_hash(scene::load_scene(options->scene, options->overrides)));
     return exit_done;

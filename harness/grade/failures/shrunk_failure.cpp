@@ -65,7 +65,7 @@ bool crashes(const FailedQuery& failed, const files::Case& c) {
                                      failed.answer.task);
         };
       });
-  return solved.answers[0].status == Status::crashed;
+  return solved.answers[0].status == failed.answer.status;
 }
 
 // Returns whether the smaller case is about as wrong: it may be a little less wrong.

@@ -13,6 +13,7 @@
 #include "harness/base/error.h"
 #include "harness/base/hash.h"
 #include "harness/files/csv.h"
+#include "harness/kinds/box/broad_check.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/selection.h"
 #include "harness/scene/box_frames.h"
@@ -235,25 +236,6 @@ class BoxQuestions final : public Questions {
   std::vector<std::unique_ptr<BoxContender>> contenders_;
 };
 
-class BoxKind final : public AskedOnly {
- public:
-  BoxKind()
-      : AskedOnly({.registry = kind_words<BroadPhaseEntry>,
-                   .title = "Boxes",
-                   .contract = "broad phase",
-                   .legend = "",
-                   .tasks = box_task_names,
-                   .draw_number = 0}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<BroadPhaseEntry>());
-  }
-  std::vector<QueryOption> query_options() const override { return box_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_box_questions(input);
-  }
-};
-
 }  // namespace
 
 std::vector<QueryOption> box_options() {
@@ -284,7 +266,20 @@ std::unique_ptr<Questions> read_box_questions(const QuestionInput& input) {
 }
 
 const Kind& box_kind() {
-  static const BoxKind kind;
+  static const KindOf<BroadPhaseEntry> kind(
+      {.registry = kind_words<BroadPhaseEntry>,
+       .title = "Boxes",
+       .contract = "broad phase",
+       .legend = "",
+       .tasks = box_task_names,
+       .draw_number = 0},
+      {.options = box_options,
+       .read = read_box_questions,
+       .offers = [](const BroadPhaseEntry&, Precision, std::uint8_t) { return true; },
+       .by_scalar = false,
+       .checker = [](const CheckRequest& request) -> std::unique_ptr<Checker> {
+         return std::make_unique<BoxChecker>(request);
+       }});
   return kind;
 }
 

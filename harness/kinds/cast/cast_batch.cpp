@@ -22,11 +22,6 @@ using files::CastCase;
 // Cases of one call; a crash costs them all.
 constexpr std::size_t casts_of_a_call = 24;
 
-struct CastCallAnswer {
-  Status status = Status::unsupported;
-  std::array<CastOutcome, casts_of_a_call> outcomes;
-};
-
 struct CastCall {
   double tolerance = 0;  // metres
   std::vector<std::size_t> places;
@@ -34,13 +29,13 @@ struct CastCall {
 };
 
 void solve_call(const CastEntry& entry, const CastSettings& settings, const CastCall& call,
-                CastCallAnswer& answer) {
+                std::span<CastOutcome> outcomes) {
   std::vector<const CastCase*> cases;
   for (const CastParts& parts : call.parts) cases.push_back(&parts[0]);
-  process::solve_casts(entry, settings, cases, std::span(answer.outcomes).first(cases.size()));
+  process::solve_casts(entry, settings, cases, outcomes);
   if (call.parts[0].size() == 1) return;
   // Contact is in the first half or in the second.
-  CastOutcome& outcome = answer.outcomes[0];
+  CastOutcome& outcome = outcomes[0];
   double offset = 0;
   if (outcome.answer == CastAnswer::miss) {
     outcome = process::solve_cast(entry, settings, call.parts[0][1]);
@@ -76,28 +71,19 @@ class CastBatch final : public Batch {
     std::vector<Graded> grades(cases_.size());
     const bool approach = static_cast<StartContact>(contestant.task) == StartContact::approach;
     if (approach && (form == CaseForm::reversed || form == CaseForm::split)) return grades;
-    const std::vector<CastCall> calls = calls_of(contestant, form);
-    if (calls.empty()) return grades;
     const auto& entry = contestant.of<CastEntry>();
-    const auto solved =
-        process::isolated_answers<CastCallAnswer>(calls.size(), batch_limits(time_limit), [&] {
-          return [&](std::size_t k) {
+    ask_calls<CastOutcome, casts_of_a_call>(
+        calls_of(contestant, form), time_limit,
+        [&] {
+          return [&](const CastCall& call, std::span<CastOutcome> outcomes) {
             CastSettings settings = settings_of(contestant);
-            settings.tolerance = calls[k].tolerance;
-            CastCallAnswer answer;
-            answer.status = Status::ok;
-            solve_call(entry, settings, calls[k], answer);
-            return answer;
+            settings.tolerance = call.tolerance;
+            solve_call(entry, settings, call, outcomes);
           };
+        },
+        [&](std::size_t i, const CastOutcome& outcome) {
+          grades[i] = grade(contestant, i, outcome, form);
         });
-    for (std::size_t k = 0; k < calls.size(); ++k) {
-      const Status status = solved.answers[k].status;
-      for (std::size_t i = 0; i < calls[k].places.size(); ++i) {
-        CastOutcome outcome = solved.answers[k].outcomes[i];
-        if (status != Status::ok) outcome.status = status;
-        grades[calls[k].places[i]] = grade(contestant, calls[k].places[i], outcome, form);
-      }
-    }
     return grades;
   }
 
@@ -180,11 +166,11 @@ class CastBatch final : public Batch {
     const bool is_silent = graded.grade == Grade::missed || graded.grade == Grade::false_hit ||
                            graded.grade == Grade::inexact;
     if (!is_silent || !rounds(cases_[i], form)) return graded;
-    CastCallAnswer answer;
+    CastOutcome answer;
     const FormNumbers numbers(range_.seed, range_.first + i);
     solve_call(*registry::find<CastEntry>("exact"), {},
-               {0, {i}, {parts_in_form(cases_[i], numbers, form)}}, answer);
-    return grade_cast(outcome, answer.outcomes[0], asked, in_time, *truths_);
+               {0, {i}, {parts_in_form(cases_[i], numbers, form)}}, {&answer, 1});
+    return grade_cast(outcome, answer, asked, in_time, *truths_);
   }
 
   const DrawnFamily<CastCase>& family_;
@@ -195,65 +181,34 @@ class CastBatch final : public Batch {
 
 constexpr std::array<std::string_view, 2> cast_tasks = {"counts", "approach"};
 
-class CastKind final : public Kind {
- public:
-  CastKind()
-      : Kind(
-            {.registry = kind_words<CastEntry>,
-             .old_name = "cast",
-             .title = "Moving bodies",
-             .contract = "cast",
-             .legend =
-                 "The tolerance is 1e-9 of the size (float: 1e-4), or the algorithm's own; *near* "
+}  // namespace
+
+const Kind& cast_kind() {
+  static const KindOf<CastEntry> kind(
+      {.registry = kind_words<CastEntry>,
+       .old_name = "cast",
+       .title = "Moving bodies",
+       .contract = "cast",
+       .legend = "The tolerance is 1e-9 of the size (float: 1e-4), or the algorithm's own; *near* "
                  "is a hit where the bodies come within it. *Inexact*: a time of impact that is "
                  "late by more than the bodies move within the tolerance (of those that promise to "
                  "be in time: 1e-14 of the step), or so early that the bodies are further apart "
                  "than the tolerance, or a bound that does not hold.",
-             .tasks = cast_tasks,
-             .draw_number = 4}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<CastEntry>());
-  }
-
-  std::vector<Contestant> contestants(const std::vector<std::string>& names,
-                                      std::span<const Precision> scalars) const override {
-    return contestants_of(
-        *this, registry::entries<CastEntry>(), names, scalars,
-        [](const CastEntry& entry, Precision scalar, std::uint8_t task) {
-          CastSettings settings;
-          settings.scalar = scalar;
-          settings.start = static_cast<StartContact>(task);
-          return offers(entry, settings);
-        },
-        [](const CastEntry&) { return true; });
-  }
-
-  std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
-    return std::make_unique<CastBatch>(family.number, range);
-  }
-
-  std::vector<QueryOption> query_options() const override { return cast_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_cast_questions(input);
-  }
-  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
-    return verify_cast_proofs(proofs, file);
-  }
-
-  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
-                                     const std::filesystem::path&) const override {
-    return cast_sets(table);
-  }
-
- private:
-  std::vector<Family> list_families() const override { return families_of(cast_families()); }
-};
-
-}  // namespace
-
-const Kind& cast_kind() {
-  static const CastKind kind;
+       .tasks = cast_tasks,
+       .draw_number = 4},
+      {.options = cast_options,
+       .read = read_cast_questions,
+       .verify = verify_cast_proofs,
+       .offers =
+           [](const CastEntry& entry, Precision scalar, std::uint8_t task) {
+             CastSettings settings;
+             settings.scalar = scalar;
+             settings.start = static_cast<StartContact>(task);
+             return offers(entry, settings);
+           },
+       .families = [] { return families_of(cast_families()); },
+       .draw = drawn_batch<CastBatch>,
+       .sets = cast_sets});
   return kind;
 }
 

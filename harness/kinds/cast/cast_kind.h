@@ -72,7 +72,7 @@ bool rounds(const files::CastCase& c, CaseForm form);
 
 // Timed sets of moving bodies.
 
-std::vector<PlannedSet> cast_sets(files::TomlTable& table);
+std::vector<PlannedSet> cast_sets(files::TomlTable& table, const std::filesystem::path& home);
 
 // Moving pairs of bodies, one JSON object a line.
 

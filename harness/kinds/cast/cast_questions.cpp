@@ -56,12 +56,8 @@ class CastQuestions final : public AnswersOf<CastEntry, CastOutcome> {
   std::vector<std::string> of_other_scalar() const override {
     CastSettings other = settings_;
     other.scalar = other.scalar == Precision::float64 ? Precision::float32 : Precision::float64;
-    std::vector<std::string> names;
-    for (const Asked& asked : asked_) {
-      const bool is_left_out = !offers(*asked.entry, settings_) && offers(*asked.entry, other);
-      if (is_left_out) names.push_back(asked.entry->info.name);
-    }
-    return names;
+    return names_where(
+        [&](const CastEntry& entry) { return !offers(entry, settings_) && offers(entry, other); });
   }
 
   std::vector<AskFailure> ask(std::size_t contestant) override {
@@ -90,11 +86,7 @@ class CastQuestions final : public AnswersOf<CastEntry, CastOutcome> {
     for (const Vec3d& v : {outcome.normal, outcome.point}) {
       for (const double x : v) csv.field(x + 0.0);  // no negative zero
     }
-    if (outcome.iterations < 0) {
-      csv.field("");
-    } else {
-      csv.field(outcome.iterations);
-    }
+    write_if(csv, outcome.iterations >= 0, outcome.iterations);
     csv.end_row();
   }
 

@@ -200,11 +200,7 @@ TimedSet make_cast_set(std::size_t kind, Way way, std::size_t count, std::size_t
       const std::shared_ptr<Cast> caster = entry->make(settings);
       caster->bind(input->shapes);
       const auto outcomes = std::make_shared<std::vector<CastOutcome>>(count);
-      TimedContestant made;
-      made.name = entry->info.name;
-      if (entry->scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
-      made.origin = entry->info.origin;
-      made.approximate = !entry->info.known_defect.empty();
+      TimedContestant made = contestant_in(*entry, scalar);
       made.answer = [=] { caster->solve(input->batch(input->first.size()), *outcomes); };
       made.grade = [=] { return grade_cast_set(*input, *entry, tolerance, *truths, *outcomes); };
       made.hash = [=] {
@@ -221,7 +217,7 @@ TimedSet make_cast_set(std::size_t kind, Way way, std::size_t count, std::size_t
 
 }  // namespace
 
-std::vector<PlannedSet> cast_sets(files::TomlTable& table) {
+std::vector<PlannedSet> cast_sets(files::TomlTable& table, const std::filesystem::path& /*home*/) {
   const auto count = static_cast<std::size_t>(table.integer("queries", 16, 1'000'000, 384));
   const auto graded = static_cast<std::size_t>(table.integer("graded", 16, 1'000'000, 384));
   const auto seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));

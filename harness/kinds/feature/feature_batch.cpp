@@ -14,12 +14,6 @@
 namespace touchstone::kinds {
 namespace {
 
-// A crash costs all queries of a call.
-struct FeatureCallAnswer {
-  Status status = Status::unsupported;
-  std::array<CcdOutcome, queries_of_a_call> outcomes;
-};
-
 struct FeatureCall {
   Lengths lengths;
   std::vector<std::size_t> places;
@@ -161,26 +155,16 @@ class FeatureBatch final : public Batch {
   std::vector<CcdOutcome> solve(const CcdEntry& entry, const std::vector<FeatureCall>& calls,
                                 double time_limit) const {
     std::vector<CcdOutcome> outcomes;
-    if (calls.empty()) return outcomes;
-    const auto solved =
-        process::isolated_answers<FeatureCallAnswer>(calls.size(), batch_limits(time_limit), [&] {
-          return [&](std::size_t k) {
-            FeatureCallAnswer answer;
-            answer.status = Status::ok;
-            const std::size_t count = calls[k].queries.size();
-            const Lengths& lengths = calls[k].lengths;
+    ask_calls<CcdOutcome, queries_of_a_call>(
+        calls, time_limit,
+        [&] {
+          return [&](const FeatureCall& call, std::span<CcdOutcome> answers) {
+            const Lengths& lengths = call.lengths;
             entry.make({.tolerance = lengths.tolerance, .separation = lengths.separation})
-                ->solve(family_.pair, calls[k].queries, std::span(answer.outcomes).first(count));
-            return answer;
+                ->solve(family_.pair, call.queries, answers);
           };
-        });
-    for (std::size_t k = 0; k < calls.size(); ++k) {
-      for (std::size_t i = 0; i < calls[k].queries.size(); ++i) {
-        CcdOutcome outcome = solved.answers[k].outcomes[i];
-        if (solved.answers[k].status != Status::ok) outcome.status = solved.answers[k].status;
-        outcomes.push_back(outcome);
-      }
-    }
+        },
+        [&](std::size_t, const CcdOutcome& outcome) { outcomes.push_back(outcome); });
     return outcomes;
   }
 
@@ -231,67 +215,40 @@ class FeatureBatch final : public Batch {
 
 constexpr std::array<std::string_view, 2> feature_tasks = {"contact", "separation"};
 
-class FeatureKind final : public Kind {
- public:
-  FeatureKind()
-      : Kind(
-            {.registry = kind_words<CcdEntry>,
-             .title = "Continuous collision of features",
-             .contract = "continuous collision",
-             .legend =
-                 "The tolerance is 1e-6 of the size or less, unless another is stated; *near* is a "
-                 "hit where the features come within it. *Inexact*: a time of impact that is late "
-                 "by more than 1e-6 of the step, or so early that the features are further apart "
-                 "than the tolerance, or a bound that does not hold.",
-             .tasks = feature_tasks,
-             .draw_number = 5}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<CcdEntry>());
+std::vector<Family> feature_families() {
+  std::vector<Family> list;
+  for (const families::CcdFamily& family : families::ccd_families()) {
+    list.push_back({.name = family.name, .group = std::string(to_string(family.pair))});
   }
-
-  std::vector<Contestant> contestants(const std::vector<std::string>& names,
-                                      std::span<const Precision> scalars) const override {
-    return contestants_of(
-        *this, registry::entries<CcdEntry>(), names, scalars,
-        [](const CcdEntry& entry, Precision scalar, std::uint8_t task) {
-          return scalar == Precision::float64 && (task == 0 || entry.separations);
-        },
-        [](const CcdEntry&) { return true; });
+  for (const FeatureAxis& at : feature_axes()) {
+    list.push_back(
+        {.name = at.axis + "-" + at.value, .group = "axes", .axis = at.axis, .value = at.value});
   }
-
-  std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
-    return std::make_unique<FeatureBatch>(family.number, range);
-  }
-
-  std::vector<QueryOption> query_options() const override { return feature_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_feature_questions(input);
-  }
-
-  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
-                                     const std::filesystem::path& home) const override {
-    return feature_sets(table, home);
-  }
-
- private:
-  std::vector<Family> list_families() const override {
-    std::vector<Family> list;
-    for (const families::CcdFamily& family : families::ccd_families()) {
-      list.push_back({.name = family.name, .group = std::string(to_string(family.pair))});
-    }
-    for (const FeatureAxis& at : feature_axes()) {
-      list.push_back(
-          {.name = at.axis + "-" + at.value, .group = "axes", .axis = at.axis, .value = at.value});
-    }
-    return list;
-  }
-};
+  return list;
+}
 
 }  // namespace
 
 const Kind& feature_kind() {
-  static const FeatureKind kind;
+  static const KindOf<CcdEntry> kind(
+      {.registry = kind_words<CcdEntry>,
+       .title = "Continuous collision of features",
+       .contract = "continuous collision",
+       .legend = "The tolerance is 1e-6 of the size or less, unless another is stated; *near* is a "
+                 "hit where the features come within it. *Inexact*: a time of impact that is late "
+                 "by more than 1e-6 of the step, or so early that the features are further apart "
+                 "than the tolerance, or a bound that does not hold.",
+       .tasks = feature_tasks,
+       .draw_number = 5},
+      {.options = feature_options,
+       .read = read_feature_questions,
+       .offers =
+           [](const CcdEntry& entry, Precision scalar, std::uint8_t task) {
+             return scalar == Precision::float64 && (task == 0 || entry.separations);
+           },
+       .families = feature_families,
+       .draw = drawn_batch<FeatureBatch>,
+       .sets = feature_sets});
   return kind;
 }
 

@@ -161,11 +161,7 @@ class FeatureQuestions final : public Questions {
     csv.field(query).field(info(contestant).name).field(to_string(outcome.answer));
     csv.field(outcome.toi).field(to_string(outcome.status));
     csv.field(outcome.free_before).field(outcome.contact_by);
-    if (outcome.iterations >= 0) {
-      csv.field(outcome.iterations);
-    } else {
-      csv.field("");
-    }
+    write_if(csv, outcome.iterations >= 0, outcome.iterations);
     if (is_folder_) {
       const files::CcdFile& file = files_[at_];
       csv.field(file.scene).field(to_string(file.pair)).field(file.file.filename().string());

@@ -135,10 +135,7 @@ TimedSet make_feature_set(const std::shared_ptr<CcdInput>& input, const CcdSetti
     }
     const std::shared_ptr<Ccd> solver = entry->make(settings);
     const auto outcomes = std::make_shared<std::vector<CcdOutcome>>(input->queries.size());
-    TimedContestant made;
-    made.name = entry->info.name;
-    made.origin = entry->info.origin;
-    made.approximate = !entry->info.known_defect.empty();
+    TimedContestant made = contestant_in(*entry);
     made.answer = [=] { solver->solve(input->pair, input->queries, *outcomes); };
     made.grade = [=, is_oracle = entry->info.origin == Origin::oracle] {
       return grade_feature_set(*input, settings, is_oracle, *outcomes);

@@ -97,11 +97,7 @@ class ManifoldQuestions final : public AnswersOf<ManifoldEntry, Manifold> {
       csv.field(to_string(manifold.status));
       for (const double x : manifold.normal) csv.field(x);
       csv.field(manifold.count);
-      if (manifold.count == 0) {
-        csv.field("");
-      } else {
-        csv.field(k);
-      }
+      write_if(csv, manifold.count != 0, k);
       const ContactPoint point = manifold.points[static_cast<std::size_t>(k)];
       csv.field(point.depth);
       for (const Vec3d& v : {point.on_a, point.on_b}) {
@@ -225,25 +221,6 @@ class ManifoldQuestions final : public AnswersOf<ManifoldEntry, Manifold> {
   grade::ManifoldTally tally_;
 };
 
-class ManifoldKind final : public AskedOnly {
- public:
-  ManifoldKind()
-      : AskedOnly({.registry = kind_words<ManifoldEntry>,
-                   .title = "Contact manifolds",
-                   .contract = "contact manifold",
-                   .legend = "",
-                   .tasks = manifold_task_names,
-                   .draw_number = 0}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<ManifoldEntry>());
-  }
-  std::vector<QueryOption> query_options() const override { return manifold_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_manifold_questions(input);
-  }
-};
-
 }  // namespace
 
 std::vector<QueryOption> manifold_options() {
@@ -264,7 +241,14 @@ std::unique_ptr<Questions> read_manifold_questions(const QuestionInput& input) {
 }
 
 const Kind& manifold_kind() {
-  static const ManifoldKind kind;
+  static const KindOf<ManifoldEntry> kind(
+      {.registry = kind_words<ManifoldEntry>,
+       .title = "Contact manifolds",
+       .contract = "contact manifold",
+       .legend = "",
+       .tasks = manifold_task_names,
+       .draw_number = 0},
+      {.options = manifold_options, .read = read_manifold_questions});
   return kind;
 }
 

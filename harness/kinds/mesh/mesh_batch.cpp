@@ -101,7 +101,7 @@ class MeshBatch final : public Batch {
       const std::uint64_t index = range_.first + i;
       // The exact distance of meshes takes long.
       const bool is_long = task == ConcaveTask::distance && family_.group != "triangles";
-      if (!is_asked(form, index) || (is_long && index % 5 != 0)) continue;
+      if (!is_asked(form, index) || (is_long && !is_sampled(index))) continue;
       const std::optional<ConcaveCase> c = in_form(cases_[i], contestant.scalar, form, index);
       if (!c || (entry.supports != nullptr && !entry.supports(c->a, c->b))) continue;
       all.add(*c);
@@ -210,58 +210,29 @@ class MeshBatch final : public Batch {
 
 constexpr std::array<std::string_view, 3> mesh_tasks = {"intersect", "distance", "contacts"};
 
-class MeshKind final : public Kind {
- public:
-  MeshKind()
-      : Kind({.registry = kind_words<ConcaveEntry>,
-              .title = "Bodies that need not be convex",
-              .contract = "concave phase",
-              .legend =
-                  "A contact is a shared point. *Inexact*: another list of pairs of parts, a "
-                  "distance that is off by more than 1e-11 of the reach (float: 1e-5), or a bound "
-                  "that does not hold.",
-              .tasks = mesh_tasks,
-              .draw_number = 1}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<ConcaveEntry>());
-  }
-
-  std::vector<Contestant> contestants(const std::vector<std::string>& names,
-                                      std::span<const Precision> scalars) const override {
-    return contestants_of(
-        *this, registry::entries<ConcaveEntry>(), names, scalars,
-        [](const ConcaveEntry& entry, Precision scalar, std::uint8_t task) {
-          return offers(entry, static_cast<ConcaveTask>(task), scalar);
-        },
-        [](const ConcaveEntry& entry) { return !entry.approximate; });
-  }
-
-  std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
-    return std::make_unique<MeshBatch>(family.number, range);
-  }
-
-  std::vector<QueryOption> query_options() const override { return mesh_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_mesh_questions(input);
-  }
-  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
-    return verify_mesh_proofs(proofs, file);
-  }
-
-  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
-                                     const std::filesystem::path& home) const override {
-    return mesh_sets(table, home);
-  }
-
- private:
-  std::vector<Family> list_families() const override { return families_of(mesh_families()); }
-};
-
 }  // namespace
 
 const Kind& mesh_kind() {
-  static const MeshKind kind;
+  static const KindOf<ConcaveEntry> kind(
+      {.registry = kind_words<ConcaveEntry>,
+       .title = "Bodies that need not be convex",
+       .contract = "concave phase",
+       .legend = "A contact is a shared point. *Inexact*: another list of pairs of parts, a "
+                 "distance that is off by more than 1e-11 of the reach (float: 1e-5), or a bound "
+                 "that does not hold.",
+       .tasks = mesh_tasks,
+       .draw_number = 1},
+      {.options = mesh_options,
+       .read = read_mesh_questions,
+       .verify = verify_mesh_proofs,
+       .offers =
+           [](const ConcaveEntry& entry, Precision scalar, std::uint8_t task) {
+             return offers(entry, static_cast<ConcaveTask>(task), scalar);
+           },
+       .promises = [](const ConcaveEntry& entry) { return !entry.approximate; },
+       .families = [] { return families_of(mesh_families()); },
+       .draw = drawn_batch<MeshBatch>,
+       .sets = mesh_sets});
   return kind;
 }
 

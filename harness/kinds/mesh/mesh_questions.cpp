@@ -105,13 +105,9 @@ class MeshQuestions final : public AnswersOf<ConcaveEntry, MeshReply> {
   std::string_view unit() const override { return "m"; }
   std::span<const files::ConcaveCase> pairs() const override { return cases_; }
   std::vector<std::string> of_other_scalar() const override {
-    std::vector<std::string> names;
-    for (const Asked& asked : asked_) {
-      const auto& scalars = asked.entry->scalars;
-      const bool is_left_out = std::ranges::find(scalars, settings_.scalar) == scalars.end();
-      if (is_left_out) names.push_back(asked.entry->info.name);
-    }
-    return names;
+    return names_where([&](const ConcaveEntry& entry) {
+      return std::ranges::count(entry.scalars, settings_.scalar) == 0;
+    });
   }
 
   std::vector<AskFailure> ask(std::size_t contestant) override {
@@ -313,24 +309,21 @@ class MeshQuestions final : public AnswersOf<ConcaveEntry, MeshReply> {
 
 std::vector<QueryOption> mesh_options() {
   using Value = QueryOption::Value;
-  std::vector<QueryOption> options = pair_case_options();
-  const std::vector<QueryOption> further = {
-      option::scalar,
-      option::tolerance,
-      option::max_iterations,
-      {"--pairs", Value::text,
-       "With --task contacts: the CSV file of the pairs of parts that share a point"},
-      {"--contacts", Value::text,
-       "With --task contacts: the CSV file of these pairs' normals, depths and points"},
-      {"--welded", Value::flag,
-       "With --contacts: where neighbours of a triangle are in the way of a normal, the contact "
-       "has that of the "
-       "nearest face around it, on the side of the other body's origin"},
-      {"--mid", Value::text, "The mid-phase that finds pairs of parts (default: wide-bvh)"},
-      {"--parts", Value::text, "The narrow phase for pairs of convex parts (default: certified)"},
-      option::saved};
-  options.insert(options.end(), further.begin(), further.end());
-  return options;
+  return pair_case_options(
+      {option::scalar,
+       option::tolerance,
+       option::max_iterations,
+       {"--pairs", Value::text,
+        "With --task contacts: the CSV file of the pairs of parts that share a point"},
+       {"--contacts", Value::text,
+        "With --task contacts: the CSV file of these pairs' normals, depths and points"},
+       {"--welded", Value::flag,
+        "With --contacts: where neighbours of a triangle are in the way of a normal, the contact "
+        "has that of the "
+        "nearest face around it, on the side of the other body's origin"},
+       {"--mid", Value::text, "The mid-phase that finds pairs of parts (default: wide-bvh)"},
+       {"--parts", Value::text, "The narrow phase for pairs of convex parts (default: certified)"},
+       option::saved});
 }
 
 std::unique_ptr<Questions> read_mesh_questions(const QuestionInput& input) {

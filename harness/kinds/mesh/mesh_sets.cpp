@@ -182,11 +182,8 @@ TimedSet make_mesh_set(const MeshBodies& bodies, MeshPlace place, ConcaveTask ta
       const std::shared_ptr<ConcavePhase> phase = make_phase(*entry, scalar, false);
       phase->bind(input->bodies);
       const auto answers = std::make_shared<MeshAnswers>(count);
-      TimedContestant made;
-      made.name = entry->info.name;
-      if (entry->scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
-      made.origin = entry->info.origin;
-      made.approximate = entry->approximate || !entry->info.known_defect.empty();
+      TimedContestant made = contestant_in(*entry, scalar);
+      made.approximate |= entry->approximate;
       made.answer = [=] { answers->ask(*phase, task, *input); };
       made.grade = [=] { return grade_mesh_set(*input, task, scalar, *answers); };
       made.hash = [=] { return answers->hash(); };

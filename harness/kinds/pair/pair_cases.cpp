@@ -111,9 +111,9 @@ bool asks_concave_phases(const QuestionInput& input) {
   return !std::ranges::all_of(chosen_cases(input, meshes), &files::ConcaveCase::is_convex);
 }
 
-std::vector<QueryOption> pair_case_options() {
+std::vector<QueryOption> pair_case_options(const std::vector<QueryOption>& further) {
   using Value = QueryOption::Value;
-  return {
+  std::vector<QueryOption> options = {
       {"--bodies", Value::list, "FILE is a scene: asks about these two of its bodies, such as 3 7"},
       {"--frame", Value::natural, "Which frame of a scene (default: 0)"},
       {.name = "--id",
@@ -122,6 +122,8 @@ std::vector<QueryOption> pair_case_options() {
        .excludes = "--bodies"},
       {"--page", Value::text, "A page of the pairs that opens in a browser, .html"},
       {"--built-page", Value::text, "Another built page than the launcher's"}};
+  options.insert(options.end(), further.begin(), further.end());
+  return options;
 }
 
 std::vector<std::string> query_columns() {
@@ -138,11 +140,7 @@ void write_query_fields(files::CsvWriter& csv, const QueryRowHead& head, const O
     for (const double x : v) csv.field(x);
   }
   for (const std::int32_t count : {outcome.iterations, outcome.support_calls}) {
-    if (count < 0) {
-      csv.field("");
-    } else {
-      csv.field(count);
-    }
+    write_if(csv, count >= 0, count);
   }
 }
 

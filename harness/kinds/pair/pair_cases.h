@@ -21,8 +21,8 @@ std::vector<files::ConcaveCase> asked_pair_cases(const QuestionInput& input);
 // True if concave phases are asked: a body is not convex, or the task or the name of an algorithm is theirs alone.
 bool asks_concave_phases(const QuestionInput& input);
 
-// The options that tell which pairs are asked, and where they are drawn.
-std::vector<QueryOption> pair_case_options();
+// The options that tell which pairs are asked, and where they are drawn, and further ones.
+std::vector<QueryOption> pair_case_options(const std::vector<QueryOption>& further);
 
 std::vector<std::string> query_columns();
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,9 +20,6 @@
 
 namespace touchstone::kinds {
 namespace {
-
-constexpr std::array<std::string_view, 4> pair_task_names = {"intersect", "distance", "penetration",
-                                                             "signed"};
 
 struct PairAnswer {
   Status status = Status::unsupported;  // of the outcome too; the child's end is written here
@@ -67,11 +63,8 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
   std::string_view unit() const override { return "m"; }
   std::span<const files::ConcaveCase> pairs() const override { return named_; }
   std::vector<std::string> of_other_scalar() const override {
-    std::vector<std::string> names;
-    for (const Asked& asked : asked_) {
-      if (!offers(*asked.entry, settings_.scalar)) names.push_back(asked.entry->info.name);
-    }
-    return names;
+    return names_where(
+        [&](const NarrowPhaseEntry& entry) { return !offers(entry, settings_.scalar); });
   }
 
   std::vector<AskFailure> ask(std::size_t contestant) override {
@@ -160,54 +153,24 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
   NarrowPhaseSettings settings_;
 };
 
-class PairKind final : public AskedOnly {
- public:
-  PairKind()
-      : AskedOnly({.registry = kind_words<NarrowPhaseEntry>,
-                   .title = "Pairs of convex bodies",
-                   .contract = "narrow phase",
-                   .legend = "",
-                   .tasks = pair_task_names,
-                   .draw_number = 0}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<NarrowPhaseEntry>());
-  }
-  std::vector<QueryOption> query_options() const override { return pair_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_pair_questions(input);
-  }
-  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
-    return verify_mesh_proofs(proofs, file);
-  }
-};
-
 }  // namespace
 
 std::vector<QueryOption> pair_options() {
   using Value = QueryOption::Value;
-  std::vector<QueryOption> options = pair_case_options();
-  const std::vector<QueryOption> further = {
-      option::scalar,
-      option::tolerance,
-      {.name = "--duality-gap",
-       .value = Value::positive,
-       .help = "Stop a distance by the absolute duality gap of its square instead (square metres)",
-       .excludes = "--tolerance"},
-      {"--margin", Value::not_negative, "Bodies further apart than this get no distance (metres)"},
-      option::max_iterations,
-      option::saved};
-  options.insert(options.end(), further.begin(), further.end());
-  return options;
+  return pair_case_options(
+      {option::scalar,
+       option::tolerance,
+       {.name = "--duality-gap",
+        .value = Value::positive,
+        .help = "Stop a distance by the absolute duality gap of its square instead (square metres)",
+        .excludes = "--tolerance"},
+       {"--margin", Value::not_negative, "Bodies further apart than this get no distance (metres)"},
+       option::max_iterations,
+       option::saved});
 }
 
 std::unique_ptr<Questions> read_pair_questions(const QuestionInput& input) {
   return std::make_unique<PairQuestions>(input);
-}
-
-const Kind& pair_kind() {
-  static const PairKind kind;
-  return kind;
 }
 
 }  // namespace touchstone::kinds

@@ -1,14 +1,17 @@
 // Pairs of convex bodies, one JSON object a line.
 #pragma once
 
-#include <filesystem>
+#include <array>
 #include <memory>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/kinds/questions.h"
 
 namespace touchstone::kinds {
+
+inline constexpr std::array<std::string_view, 4> pair_task_names = {"intersect", "distance",
+                                                                    "penetration", "signed"};
 
 std::vector<QueryOption> pair_options();
 // Throws InputError for what is wrong in the files or the options.

@@ -45,8 +45,8 @@ auto drawing_points(std::uint32_t number) {
 auto point_solver(const PointQueryEntry& entry, PointTask task) {
   return
       [task, query = std::shared_ptr<PointQuery>(entry.make())](
-          const TriangleMesh& mesh, std::span<const Vec3d> points, std::span<PointAnswer> answers) {
-        query->bind(mesh);
+          const MeshTarget& target, std::span<const Vec3d> points, std::span<PointAnswer> answers) {
+        query->bind(target.mesh);
         query->query(task, points, answers);
       };
 }
@@ -56,28 +56,27 @@ class PointBatch final : public Batch {
   // First those of closed meshes, then those of any, then those of the axis, with closed ones.
   PointBatch(std::uint32_t number, const BatchRange& range)
       : is_closed_(number / point_places != 1),
-        points_(point_meshes(is_closed_), point_kind(), number, range, drawing_points(number),
-                [](const Vec3d& point, double scale) { return Vec3d(scale * point); }) {}
+        points_(mesh_cases<Vec3d, PointAnswer>(
+            point_meshes(is_closed_), point_kind(), number, range, drawing_points(number),
+            [](const Vec3d& point, double scale) { return Vec3d(scale * point); })) {}
 
   std::vector<Graded> ask(const Contestant& contestant, CaseForm form, double time_limit) override {
     const auto& entry = contestant.of<PointQueryEntry>();
     const auto task = static_cast<PointTask>(contestant.task);
-    std::vector<Graded> grades(points_.size());
-    if (task == PointTask::side && !is_closed_) return grades;
-    points_.ask(
+    if (task == PointTask::side && !is_closed_) return std::vector<Graded>(points_.size());
+    return points_.ask(
         form, time_limit, [&](std::size_t i) { return in_form(i, form); },
         [&] { return point_solver(entry, task); },
         [&](std::size_t i, const PointAnswer& answer) {
           const double scale = form == CaseForm::scaled ? points_.numbers(i).scale : 1;
-          grades[i] = grade(entry, task, i, answer, scale);
+          return grade(entry, task, i, answer, scale);
         });
-    return grades;
   }
 
   std::string write(const Contestant& contestant, std::size_t place,
                     const std::filesystem::path& stem) const override {
     const std::string mesh = stem.string() + ".off", points = stem.string() + ".csv";
-    scene::write_off(mesh, points_.mesh(place));
+    scene::write_off(mesh, points_.target(place).mesh);
     const Vec3d& p = points_[place];
     files::write_text(points, fmt::format("x,y,z\n{},{},{}\n", p.x(), p.y(), p.z()));
     return fmt::format("touchstone query {} --in {} --with exact,{} --task {} --out answers.csv",
@@ -85,16 +84,15 @@ class PointBatch final : public Batch {
   }
 
  private:
-  std::optional<std::pair<TriangleMesh, Vec3d>> in_form(std::size_t i, CaseForm form) const {
+  std::optional<std::pair<MeshTarget, Vec3d>> in_form(std::size_t i, CaseForm form) const {
     const FormNumbers numbers = points_.numbers(i);
-    TriangleMesh mesh = points_.mesh(i);
+    const MeshTarget& target = points_.target(i);
     if (form == CaseForm::scaled) {
-      for (Vec3d& vertex : mesh.vertices) vertex *= numbers.scale;
-      return std::pair(std::move(mesh), Vec3d(numbers.scale * points_[i]));
+      return std::pair(target.scaled(numbers.scale), Vec3d(numbers.scale * points_[i]));
     }
     if (form != CaseForm::moved) return std::nullopt;
-    const Vec3d shift = points_.scale(i) * numbers.shift;
-    auto moved = moved_mesh(std::move(mesh), numbers, shift);
+    const Vec3d shift = target.scale * numbers.shift;
+    auto moved = target.moved(numbers, shift);
     const auto point = exact_sum(numbers.turn(points_[i]), shift);
     if (!moved || !point) return std::nullopt;
     return std::pair(std::move(*moved), *point);
@@ -110,7 +108,7 @@ class PointBatch final : public Batch {
   Graded grade(const PointQueryEntry& entry, PointTask task, std::size_t i, PointAnswer answer,
                double scale) {
     answer.distance /= scale;
-    const double reach = point_reach(points_[i], points_.mesh(i));
+    const double reach = point_reach(points_[i], points_.target(i).mesh);
     return grade_point(task, answer, truth(i, task), entry.scalar, reach);
   }
 
@@ -121,70 +119,41 @@ class PointBatch final : public Batch {
 
 constexpr std::array<std::string_view, 2> point_tasks = {"closest", "side"};
 
-class PointKind final : public Kind {
- public:
-  PointKind()
-      : Kind(
-            {.registry = kind_words<PointQueryEntry>,
-             .title = "Points",
-             .contract = "point query",
-             .legend =
-                 "A contact is a point inside or on the surface. *Inexact*: inside for on the "
-                 "surface, or a distance that is off by more than 1e-14 of the reach (float: "
-                 "1e-6), which is the greatest distance of the point and the mesh from the origin.",
-             .tasks = point_tasks,
-             .draw_number = 3}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<PointQueryEntry>());
-  }
-
-  std::vector<Contestant> contestants(const std::vector<std::string>& names,
-                                      std::span<const Precision> scalars) const override {
-    return contestants_of(
-        *this, registry::entries<PointQueryEntry>(), names, scalars,
-        [](const PointQueryEntry& entry, Precision scalar, std::uint8_t task) {
-          return scalar == entry.scalar &&
-                 std::ranges::count(entry.tasks, static_cast<PointTask>(task)) > 0;
-        },
-        [](const PointQueryEntry&) { return true; });
-  }
-
-  std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
-    return std::make_unique<PointBatch>(family.number, range);
-  }
-
-  std::vector<QueryOption> query_options() const override { return point_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_point_questions(input);
-  }
-  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
-    return verify_point_proofs(proofs, file);
-  }
-
-  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
-                                     const std::filesystem::path& home) const override {
-    return point_sets(table, home);
-  }
-
- private:
-  std::vector<Family> list_families() const override {
-    std::vector<Family> list;
-    // First with closed meshes, for which points have a side, then with any.
-    for (const char* prefix : {"points-", "points-any-mesh-"}) {
-      for (const families::PointPlace place : families::all_point_places) {
-        list.push_back({.name = prefix + std::string(to_string(place)), .group = "points"});
-      }
+std::vector<Family> point_families() {
+  std::vector<Family> list;
+  // First with closed meshes, for which points have a side, then with any.
+  for (const char* prefix : {"points-", "points-any-mesh-"}) {
+    for (const families::PointPlace place : families::all_point_places) {
+      list.push_back({.name = prefix + std::string(to_string(place)), .group = "points"});
     }
-    add_axis(list, "point-gap", point_gaps());
-    return list;
   }
-};
+  add_axis(list, "point-gap", point_gaps());
+  return list;
+}
 
 }  // namespace
 
 const Kind& point_kind() {
-  static const PointKind kind;
+  static const KindOf<PointQueryEntry> kind(
+      {.registry = kind_words<PointQueryEntry>,
+       .title = "Points",
+       .contract = "point query",
+       .legend = "A contact is a point inside or on the surface. *Inexact*: inside for on the "
+                 "surface, or a distance that is off by more than 1e-14 of the reach (float: "
+                 "1e-6), which is the greatest distance of the point and the mesh from the origin.",
+       .tasks = point_tasks,
+       .draw_number = 3},
+      {.options = point_options,
+       .read = read_point_questions,
+       .verify = verify_point_proofs,
+       .offers =
+           [](const PointQueryEntry& entry, Precision scalar, std::uint8_t task) {
+             return scalar == entry.scalar &&
+                    std::ranges::count(entry.tasks, static_cast<PointTask>(task)) > 0;
+           },
+       .families = point_families,
+       .draw = drawn_batch<PointBatch>,
+       .sets = point_sets});
   return kind;
 }
 

@@ -15,11 +15,9 @@
 #include "algorithms/oracle/rays/exact_mesh_proofs.h"
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
-#include "harness/base/input_file.h"
 #include "harness/files/csv.h"
 #include "harness/files/ray_certificates.h"
 #include "harness/geometry/concave_bodies.h"
-#include "harness/geometry/mesh.h"
 #include "harness/kinds/proofs.h"
 #include "harness/kinds/questions.h"
 
@@ -30,15 +28,7 @@ std::vector<Vec3d> read_points(const std::string& file) {
   std::vector<Vec3d> points;
   const files::CsvReader reader(file, {"x", "y", "z"});
   reader.read([&](const files::CsvReader::Row& row) {
-    Vec3d& point = points.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double value = row.number(k);
-      if (!std::isfinite(value)) {
-        row.fail(fmt::format("column {}: found {}; expected a finite number", row.name(k),
-                             base::shortened(row.text(k))));
-      }
-      point[static_cast<Eigen::Index>(k)] = value;
-    }
+    points.emplace_back(finite_number(row, 0), finite_number(row, 1), finite_number(row, 2));
   });
   return points;
 }
@@ -64,11 +54,8 @@ class PointQuestions final : public AnswersOf<PointQueryEntry, PointAnswer> {
             asked_task(input, std::array<std::string_view, 2>{to_string(PointTask::closest),
                                                               to_string(PointTask::side)}))) {
     select(input.names, "point query", Precision::float64);
-    const std::string file = needed_target(input);
-    geometry::Mesh read = geometry::read_surface(file);
-    tell_extent(file, read.vertices);
-    mesh_ = {std::move(read.vertices), std::move(read.triangles)};
-    if (task_ == PointTask::side) check_closed(file, mesh_);
+    mesh_ = read_target_mesh(input);
+    if (task_ == PointTask::side) check_closed(input.text("--in"), mesh_);
     points_ = read_points(input.file.string());
   }
 
@@ -101,11 +88,7 @@ class PointQuestions final : public AnswersOf<PointQueryEntry, PointAnswer> {
     const PointAnswer& given = answer(point, contestant);
     csv.field(point).field(info(contestant).name).field(to_string(task_));
     csv.field(task_ == PointTask::side ? to_string(given.side) : "").field(given.distance);
-    if (given.triangle == PointAnswer::no_triangle) {
-      csv.field("");
-    } else {
-      csv.field(static_cast<std::int64_t>(given.triangle));
-    }
+    write_if(csv, given.triangle != PointAnswer::no_triangle, given.triangle);
     for (const double x : given.closest) csv.field(x);
     csv.field(to_string(given.status));
     csv.end_row();

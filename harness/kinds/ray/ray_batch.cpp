@@ -24,12 +24,6 @@ const std::vector<families::NamedMesh>& ray_meshes() {
   return all;
 }
 
-Ray scaled_ray(Ray ray, double scale) {
-  ray.origin *= scale;
-  ray.direction *= scale;
-  return ray;
-}
-
 // From how far rays are cast (metres), on the axis.
 const std::vector<AxisValue>& ray_distances() {
   static const std::vector<AxisValue> all = decades(0, 15);
@@ -49,8 +43,8 @@ auto drawing_rays(std::uint32_t number) {
 
 auto ray_solver(const RayCastEntry& entry, RayTask task, Precision scalar) {
   return [task, cast = std::shared_ptr<RayCast>(entry.make({scalar}))](
-             const TriangleMesh& mesh, std::span<const Ray> rays, std::span<RayHit> hits) {
-    cast->bind(mesh);
+             const MeshTarget& target, std::span<const Ray> rays, std::span<RayHit> hits) {
+    cast->bind(target.mesh);
     cast->cast(task, rays, hits);
   };
 }
@@ -58,23 +52,22 @@ auto ray_solver(const RayCastEntry& entry, RayTask task, Precision scalar) {
 class RayBatch final : public Batch {
  public:
   RayBatch(std::uint32_t number, const BatchRange& range)
-      : rays_(ray_meshes(), ray_kind(), number, range, drawing_rays(number), scaled_ray) {}
+      : rays_(mesh_cases<Ray, RayHit>(ray_meshes(), ray_kind(), number, range, drawing_rays(number),
+                                      scaled_ray)) {}
 
   std::vector<Graded> ask(const Contestant& contestant, CaseForm form, double time_limit) override {
     const auto& entry = contestant.of<RayCastEntry>();
     const auto task = static_cast<RayTask>(contestant.task);
-    std::vector<Graded> grades(rays_.size());
-    rays_.ask(
+    return rays_.ask(
         form, time_limit, [&](std::size_t i) { return in_form(i, contestant.scalar, form); },
         [&] { return ray_solver(entry, task, contestant.scalar); },
-        [&](std::size_t i, const RayHit& hit) { grades[i] = grade(contestant, entry, i, hit); });
-    return grades;
+        [&](std::size_t i, const RayHit& hit) { return grade(contestant, entry, i, hit); });
   }
 
   std::string write(const Contestant& contestant, std::size_t place,
                     const std::filesystem::path& stem) const override {
     const std::string mesh = stem.string() + ".off", rays = stem.string() + ".csv";
-    scene::write_off(mesh, rays_.mesh(place));
+    scene::write_off(mesh, rays_.target(place).mesh);
     write_ray(rays, rays_[place]);
     return fmt::format(
         "touchstone query {} --in {} --with exact,{} --task {} --scalar {} --out hits.csv", rays,
@@ -82,24 +75,20 @@ class RayBatch final : public Batch {
   }
 
  private:
-  std::optional<std::pair<TriangleMesh, Ray>> in_form(std::size_t i, Precision scalar,
-                                                      CaseForm form) const {
+  std::optional<std::pair<MeshTarget, Ray>> in_form(std::size_t i, Precision scalar,
+                                                    CaseForm form) const {
     const FormNumbers numbers = rays_.numbers(i);
-    TriangleMesh mesh = rays_.mesh(i);
+    const MeshTarget& target = rays_.target(i);
     if (form == CaseForm::scaled) {
-      for (Vec3d& vertex : mesh.vertices) vertex *= numbers.scale;
-      return std::pair(std::move(mesh), scaled_ray(rays_[i], numbers.scale));
+      return std::pair(target.scaled(numbers.scale), scaled_ray(rays_[i], numbers.scale));
     }
     if (form != CaseForm::moved) return std::nullopt;
     const Vec3d shift =
-        scalar == Precision::float64 ? Vec3d(rays_.scale(i) * numbers.shift) : Vec3d(0, 0, 0);
-    auto moved = moved_mesh(std::move(mesh), numbers, shift);
-    Ray ray = rays_[i];
-    const auto origin = exact_sum(numbers.turn(ray.origin), shift);
-    if (!moved || !origin) return std::nullopt;
-    ray.origin = *origin;
-    ray.direction = numbers.turn(ray.direction);
-    return std::pair(std::move(*moved), ray);
+        scalar == Precision::float64 ? Vec3d(target.scale * numbers.shift) : Vec3d(0, 0, 0);
+    auto moved = target.moved(numbers, shift);
+    const auto ray = moved_ray(rays_[i], numbers, shift);
+    if (!moved || !ray) return std::nullopt;
+    return std::pair(std::move(*moved), *ray);
   }
 
   const RayHit& truth(std::size_t i, Precision scalar) {
@@ -113,7 +102,7 @@ class RayBatch final : public Batch {
 
   Graded grade(const Contestant& contestant, const RayCastEntry& entry, std::size_t i,
                const RayHit& hit) {
-    const double size = rays_.scale(i) / rays_[i].direction.lpNorm<Eigen::Infinity>();
+    const double size = rays_.target(i).scale / rays_[i].direction.lpNorm<Eigen::Infinity>();
     return grade_ray(static_cast<RayTask>(contestant.task), hit, truth(i, contestant.scalar), entry,
                      contestant.scalar, size);
   }
@@ -124,66 +113,52 @@ class RayBatch final : public Batch {
 
 constexpr std::array<std::string_view, 2> ray_tasks = {"closest", "any"};
 
-class RayKind final : public Kind {
- public:
-  RayKind()
-      : Kind(
-            {.registry = kind_words<RayCastEntry>,
-             .title = "Rays",
-             .contract = "ray cast",
-             .legend =
-                 "A contact is a hit. *Inexact*: another triangle (of those that promise it), or a "
-                 "length that is off by more than 1e-9 of itself and the mesh's size (float "
-                 "without exact verdicts: 1e-4).",
-             .tasks = ray_tasks,
-             .draw_number = 2}) {}
-
-  std::vector<const AlgorithmInfo*> algorithms() const override {
-    return infos_of(registry::entries<RayCastEntry>());
+std::vector<Family> ray_families() {
+  std::vector<Family> list;
+  for (const families::RayAim aim : families::all_ray_aims) {
+    list.push_back({.name = "rays-" + std::string(to_string(aim)), .group = "rays"});
   }
-
-  std::vector<Contestant> contestants(const std::vector<std::string>& names,
-                                      std::span<const Precision> scalars) const override {
-    return contestants_of(
-        *this, registry::entries<RayCastEntry>(), names, scalars,
-        [](const RayCastEntry& entry, Precision scalar, std::uint8_t task) {
-          return offers(entry, static_cast<RayTask>(task)) && offers(entry, scalar);
-        },
-        [](const RayCastEntry& entry) { return entry.exact_verdicts; });
-  }
-
-  std::unique_ptr<Batch> draw(const Family& family, const BatchRange& range) const override {
-    return std::make_unique<RayBatch>(family.number, range);
-  }
-
-  std::vector<QueryOption> query_options() const override { return ray_options(); }
-  std::unique_ptr<Questions> read(const QuestionInput& input) const override {
-    return read_ray_questions(input);
-  }
-  bool verify(const std::string& proofs, const std::filesystem::path& file) const override {
-    return verify_ray_proofs(proofs, file);
-  }
-
-  std::vector<PlannedSet> timed_sets(files::TomlTable& table,
-                                     const std::filesystem::path& home) const override {
-    return ray_sets(table, home);
-  }
-
- private:
-  std::vector<Family> list_families() const override {
-    std::vector<Family> list;
-    for (const families::RayAim aim : families::all_ray_aims) {
-      list.push_back({.name = "rays-" + std::string(to_string(aim)), .group = "rays"});
-    }
-    add_axis(list, "ray-distance", ray_distances());
-    return list;
-  }
-};
+  add_axis(list, "ray-distance", ray_distances());
+  return list;
+}
 
 }  // namespace
 
+Ray scaled_ray(Ray ray, double scale) {
+  ray.origin *= scale;
+  ray.direction *= scale;
+  return ray;
+}
+
+std::optional<Ray> moved_ray(Ray ray, const FormNumbers& numbers, const Vec3d& shift) {
+  const auto origin = exact_sum(numbers.turn(ray.origin), shift);
+  if (!origin) return std::nullopt;
+  ray.origin = *origin;
+  ray.direction = numbers.turn(ray.direction);
+  return ray;
+}
+
 const Kind& ray_kind() {
-  static const RayKind kind;
+  static const KindOf<RayCastEntry> kind(
+      {.registry = kind_words<RayCastEntry>,
+       .title = "Rays",
+       .contract = "ray cast",
+       .legend = "A contact is a hit. *Inexact*: another triangle (of those that promise it), or a "
+                 "length that is off by more than 1e-9 of itself and the mesh's size (float "
+                 "without exact verdicts: 1e-4).",
+       .tasks = ray_tasks,
+       .draw_number = 2},
+      {.options = ray_options,
+       .read = read_ray_questions,
+       .verify = verify_ray_proofs,
+       .offers =
+           [](const RayCastEntry& entry, Precision scalar, std::uint8_t task) {
+             return offers(entry, static_cast<RayTask>(task)) && offers(entry, scalar);
+           },
+       .promises = [](const RayCastEntry& entry) { return entry.exact_verdicts; },
+       .families = ray_families,
+       .draw = drawn_batch<RayBatch>,
+       .sets = ray_sets});
   return kind;
 }
 

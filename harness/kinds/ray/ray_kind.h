@@ -4,15 +4,21 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "algorithms/ray_cast.h"
 #include "harness/files/toml_table.h"
+#include "harness/kinds/exact_forms.h"
 #include "harness/kinds/questions.h"
 #include "harness/kinds/timed_set.h"
 
 namespace touchstone::kinds {
+
+// Forms of rays: scaled, and turned and moved; nothing if that rounds the origin.
+Ray scaled_ray(Ray ray, double scale);
+std::optional<Ray> moved_ray(Ray ray, const FormNumbers& numbers, const Vec3d& shift);
 
 // Files of rays.
 

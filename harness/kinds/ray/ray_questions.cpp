@@ -20,7 +20,6 @@
 #include "harness/files/csv.h"
 #include "harness/files/ray_certificates.h"
 #include "harness/files/text_file.h"
-#include "harness/geometry/mesh.h"
 #include "harness/kinds/proofs.h"
 #include "harness/kinds/questions.h"
 
@@ -32,10 +31,7 @@ class RayQuestions final : public AnswersOf<RayCastEntry, RayHit> {
   explicit RayQuestions(const QuestionInput& input)
       : input_(input), task_(asked_ray_task(input)), scalar_(input.scalar()) {
     select(input.names, "ray cast", scalar_);
-    const std::string file = needed_target(input);
-    geometry::Mesh read = geometry::read_surface(file);
-    tell_extent(file, read.vertices);
-    mesh_ = {std::move(read.vertices), std::move(read.triangles)};
+    mesh_ = read_target_mesh(input);
     rays_ = read_rays(input.file);
   }
 
@@ -46,11 +42,7 @@ class RayQuestions final : public AnswersOf<RayCastEntry, RayHit> {
   }
   std::string_view unit() const override { return "lengths of the direction"; }
   std::vector<std::string> of_other_scalar() const override {
-    std::vector<std::string> names;
-    for (const Asked& asked : asked_) {
-      if (!offers(*asked.entry, scalar_)) names.push_back(asked.entry->info.name);
-    }
-    return names;
+    return names_where([&](const RayCastEntry& entry) { return !offers(entry, scalar_); });
   }
 
   std::vector<AskFailure> ask(std::size_t contestant) override {
@@ -76,11 +68,7 @@ class RayQuestions final : public AnswersOf<RayCastEntry, RayHit> {
     const RayHit& hit = answer(ray, contestant);
     csv.field(ray).field(info(contestant).name).field(to_string(scalar_));
     csv.field(hit.hit ? 1 : 0).field(hit.t);
-    if (hit.triangle == RayHit::no_triangle) {
-      csv.field("");
-    } else {
-      csv.field(static_cast<std::int64_t>(hit.triangle));
-    }
+    write_if(csv, hit.triangle != RayHit::no_triangle, hit.triangle);
     csv.field(hit.u).field(hit.v).field(to_string(hit.status));
     csv.end_row();
   }
@@ -198,14 +186,7 @@ std::vector<Ray> read_rays(const std::filesystem::path& file) {
   const files::CsvReader reader(file, {"origin_x", "origin_y", "origin_z", "direction_x",
                                        "direction_y", "direction_z", "t_max"});
   reader.read([&](const files::CsvReader::Row& row) {
-    const auto finite = [&](std::size_t column) {
-      const double value = row.number(column);
-      if (!std::isfinite(value)) {
-        row.fail(fmt::format("column {}: found {}; expected a finite number", row.name(column),
-                             base::shortened(row.text(column))));
-      }
-      return value;
-    };
+    const auto finite = [&](std::size_t column) { return finite_number(row, column); };
     Ray ray{{finite(0), finite(1), finite(2)}, {finite(3), finite(4), finite(5)}, row.number(6)};
     if (ray.direction.isZero(0)) row.fail("the direction is zero; expected one that is not");
     if (!(ray.t_max >= 0)) {

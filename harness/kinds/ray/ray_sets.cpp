@@ -138,10 +138,7 @@ class RaySets {
                              const RayCastEntry& entry, Precision scalar) {
     const auto caster = std::make_shared<std::unique_ptr<RayCast>>();
     const auto hits = std::make_shared<std::vector<RayHit>>(input->rays.size());
-    TimedContestant made;
-    made.name = entry.info.name;
-    if (entry.scalars.size() > 1) made.name += fmt::format(" {}", to_string(scalar));
-    made.origin = entry.info.origin;
+    TimedContestant made = contestant_in(entry, scalar);
     made.approximate = !entry.exact_verdicts;
     made.prepare = [=, &entry, mesh = mesh_] {
       *caster = entry.make({.scalar = scalar});

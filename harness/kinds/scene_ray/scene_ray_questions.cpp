@@ -92,18 +92,10 @@ class SceneRayQuestions final : public AnswersOf<SceneRayCastEntry, SceneRayHit>
     csv.field(ray).field(info(contestant).name).field(to_string(Precision::float64));
     csv.field(hit.hit ? 1 : 0).field(hit.t);
     // A mesh's part is its triangle; where in it the hit lies is not told.
-    if (hit.body != SceneRayHit::none && bodies_[hit.body].body.mesh) {
-      csv.field(static_cast<std::int64_t>(hit.part));
-    } else {
-      csv.field("");
-    }
+    write_if(csv, hit.body != SceneRayHit::none && bodies_[hit.body].body.mesh, hit.part);
     csv.field("").field("").field(to_string(hit.status));
     for (const std::uint32_t number : {hit.body, hit.part}) {
-      if (number == SceneRayHit::none) {
-        csv.field("");
-      } else {
-        csv.field(static_cast<std::int64_t>(number));
-      }
+      write_if(csv, number != SceneRayHit::none, number);
     }
     for (const double x : hit.normal) csv.field(x);
     csv.end_row();

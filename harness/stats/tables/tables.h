@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,14 +20,14 @@ struct TimeRow {
   bool per_query = false;  // true if the times are those of a query, not of a frame
   MedianInterval seconds;  // an estimate over the squares
   double minimum = 0;      // the minimum of all samples, noisy ones too, because noise only adds
-  double worst_frame = std::numeric_limits<double>::quiet_NaN();  // see samples.h
+  double worst_frame = nan;  // see samples.h
   std::array<double, phase_count> parts;  // medians of the phases, NaN for absent ones
   std::int64_t samples = 0, noisy = 0, outliers = 0;
   bool wrong = false;   // true for wrong pairs, or an answer on the wrong side of contact
   std::string failure;  // crashed, timed_out, unsupported, wrong
   // Counts of narrow phases, over all verified frames.
   std::int64_t queries = 0, unknown = 0;  // unknown: failed, or without an answer
-  double worst_error = std::numeric_limits<double>::quiet_NaN();  // see AgreementRow
+  double worst_error = nan;  // see AgreementRow
   bool depth_is_bound = false;  // its depths are upper bounds by design
 };
 
@@ -89,9 +88,9 @@ struct AgreementRow {
   std::optional<record::RowOrigin> origin;
   std::int64_t queries = 0, right = 0, wrong = 0, failed = 0, unanswered = 0;
   // The greatest error of a distance or depth, as a part of the pair's size; NaN if there is none.
-  double worst_error = std::numeric_limits<double>::quiet_NaN();
+  double worst_error = nan;
   // The greatest exact distance or depth of an answer on the wrong side, metres; NaN if unknown.
-  double worst_disagreement = std::numeric_limits<double>::quiet_NaN();
+  double worst_disagreement = nan;
   bool depth_is_bound = false;
 };
 
@@ -136,9 +135,9 @@ struct BroadBestRow {
 struct NarrowBestRow {
   struct Best {
     std::string label;                                          // empty if there is none
-    double seconds = std::numeric_limits<double>::quiet_NaN();  // time for a query
+    double seconds = nan;  // time for a query
     std::int64_t queries = 0, wrong = 0, failed = 0;            // see AgreementRow
-    double worst_error = std::numeric_limits<double>::quiet_NaN();
+    double worst_error = nan;
     MedianInterval ratio = {nan, nan, nan, 0};  // ratio of its time to that of ours
   };
   SetKey key;

@@ -13,13 +13,13 @@
 #include "harness/base/random.h"
 #include "harness/files/toml_table.h"
 #include "harness/scene/kinematics.h"
+#include "harness/stats/statistics.h"
 
 namespace touchstone::trade {
 namespace {
 
 constexpr std::size_t most_held_out_frames = 16;
 constexpr std::size_t most_draws = 256, most_bytes = std::size_t{1} << 30;
-constexpr double confidence = 0.95;
 
 // The seed of the scene as the request has it; 1 for a scene that is not generated.
 std::int64_t own_seed(const TradeRequest& request) {
@@ -94,8 +94,8 @@ bool can_miss(const Representations& representations) {
 
 double greatest_share(std::int64_t wrong, std::int64_t of) {
   if (wrong >= of) return 1;
-  return boost::math::binomial::find_upper_bound_on_p(static_cast<double>(of),
-                                                      static_cast<double>(wrong), 1 - confidence);
+  return boost::math::binomial::find_upper_bound_on_p(
+      static_cast<double>(of), static_cast<double>(wrong), 1 - stats::usual_confidence);
 }
 
 std::vector<Evidence> evidence_for(const ErrorBudget& budget, ErrorMeasure measure,

@@ -8,7 +8,7 @@
 
 #include "harness/base/error.h"
 #include "harness/check/check_run.h"
-#include "harness/check/envelope.h"
+#include "harness/kinds/pair/envelope.h"
 #include "tests/harness/check/planted.h"
 #include "tests/harness/temporary_folder.h"
 
@@ -45,17 +45,17 @@ class AxesRun : public ::testing::Test {
  protected:
   check::CheckRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
     check::CheckRequest request(check::CheckMode::axes);
-    request.narrow = narrow;
     request.scalars = {Precision::float64};
-    for (const check::Regime& value : values) request.regimes.push_back(&value);
+    ask(request, narrow);
+    for (const kinds::Regime& value : values) draw(request, value);
     request.cases = 8;
     request.time_limit = 0.02;
     request.out = folder.path() / "out";
     return request;
   }
   std::string read(const std::string& name) const { return folder.read("out/" + name); }
-  static std::vector<check::Reach> reaches_of(const check::CheckReport& result) {
-    return check::envelope(*result.request, result.tally.axis_counts());
+  static std::vector<kinds::Reach> reaches_of(const check::CheckReport& result) {
+    return result.of<kinds::AxisChecker>().reaches();
   }
   // Sums over all tasks and values.
   static std::int64_t count(const check::CheckReport& result, grade::AnswerClass outcome) {
@@ -63,8 +63,8 @@ class AxesRun : public ::testing::Test {
   }
 
   TemporaryFolder folder;
-  check::Axis balls = balls_axis(3);
-  std::vector<check::Regime> values = check::regimes_of(balls);
+  kinds::Axis balls = balls_axis(3);
+  std::vector<kinds::Regime> values = kinds::regimes_of(balls);
 };
 
 TEST_F(AxesRun, AnAlgorithmThatIsRight) {
@@ -75,7 +75,7 @@ TEST_F(AxesRun, AnAlgorithmThatIsRight) {
   EXPECT_EQ(count(result, grade::AnswerClass::right), 3 * 3 * 8);
   EXPECT_EQ(reaches_of(result).at(0).answers, 3 * 3 * 8);
   EXPECT_THAT(reaches_of(result).at(0).first, Each(std::nullopt));
-  EXPECT_THAT(result.failures, IsEmpty());
+  EXPECT_THAT(result.of<kinds::AxisChecker>().failures(), IsEmpty());
   EXPECT_THAT(check::summary_text(result, 120),
               HasSubstr("none of our own algorithms is silently wrong, crashes or hangs"));
 }
@@ -107,19 +107,22 @@ TEST_P(AxisHarm, IsToldApart) {
     EXPECT_EQ(reaches_of(result)[0].first_of(harm.outcome), 1u);
     const bool is_fault = harm.outcome != grade::AnswerClass::honest;
     EXPECT_EQ(!result.ours_wrong().empty(), is_fault && origin == Origin::ours);
-    EXPECT_EQ(!result.failures.empty(), is_fault);
-    for (const check::FailureCase& failure : result.failures) {
+    EXPECT_EQ(!result.of<kinds::AxisChecker>().failures().empty(), is_fault);
+    for (const kinds::FailureCase& failure : result.of<kinds::AxisChecker>().failures()) {
       EXPECT_THAT(files::read_cases(failure.file), Not(IsEmpty()));
       EXPECT_THAT(failure.id, HasSubstr("/sphere-sphere/ball/"));
     }
-    const check::EnvelopeTable which =
-        is_fault ? check::EnvelopeTable::wrong : check::EnvelopeTable::honest;
+    const kinds::EnvelopeTable which =
+        is_fault ? kinds::EnvelopeTable::wrong : kinds::EnvelopeTable::honest;
     const std::string word = harm.outcome == grade::AnswerClass::crashed ? " crashes" : "";
     EXPECT_THAT(
-        check::table(request, reaches_of(result), which).rows(),
+        kinds::table(result.of<kinds::AxisChecker>().subjects(), reaches_of(result), which).rows(),
         ElementsAre(ElementsAre("algorithm", "balls"), ElementsAre("bad double", "2" + word)));
     const bool other_side = harm.harm == Harm::wrong_side || !word.empty();
-    EXPECT_THAT(check::table(request, reaches_of(result), check::EnvelopeTable::side).rows().at(1),
+    EXPECT_THAT(kinds::table(result.of<kinds::AxisChecker>().subjects(), reaches_of(result),
+                             kinds::EnvelopeTable::side)
+                    .rows()
+                    .at(1),
                 ElementsAre("bad double", other_side ? "2" + word : "-"));
     EXPECT_THAT(check::page_text(result, "touchstone check --axes", "figures"),
                 HasSubstr("| bad double | 2" + word + " |"));
@@ -146,7 +149,8 @@ TEST_F(AxesRun, AHangThatIsBusyOrAsleepEndsAtItsLimit) {
   for (const NarrowPhaseEntry& entry :
        {busy("busy", Origin::ours), planted<Harm::hangs>("asleep", Origin::ours)}) {
     check::CheckRequest request = request_for({&entry});
-    request.regimes = {&values[1]};
+    request.families.clear();
+    draw(request, values[1]);
     request.cases = 1;
     const check::CheckReport result = check::run_check(request);
     EXPECT_EQ(count(result, grade::AnswerClass::hung), 3) << entry.info.name;

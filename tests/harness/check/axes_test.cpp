@@ -1,5 +1,5 @@
 // Tests that each axis draws what it states.
-#include "harness/check/axes/axes.h"
+#include "harness/kinds/pair/axes/axes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,22 +10,23 @@
 #include <set>
 
 #include "harness/base/reproducible_math.h"
-#include "harness/check/axes/axis_draws.h"
-#include "harness/check/check_job.h"
 #include "harness/grade/margins.h"
+#include "harness/kinds/kind.h"
+#include "harness/kinds/pair/axes/axis_draws.h"
+#include "harness/kinds/pair/pair_checkers.h"
 #include "harness/process/solve_case.h"
 
 namespace touchstone {
 namespace {
 
-const check::Axis& axis(const std::string& name) {
-  return *std::ranges::find(check::axes(), name, &check::Axis::name);
+const kinds::Axis& axis(const std::string& name) {
+  return *std::ranges::find(kinds::axes(), name, &kinds::Axis::name);
 }
 
 // The cases of a value, and how many of them are apart and overlap.
 struct Drawn {
   std::vector<grade::TrueCase> cases;
-  check::AxisSummary summary;
+  kinds::AxisSummary summary;
   std::map<Answer, int> answers;
 };
 
@@ -36,15 +37,20 @@ class Axes : public ::testing::Test {
   void for_each_value(const std::string& name, int cases, const Visit& visit,
                       double greatest = 1e300) {
     check::CheckRequest request(check::CheckMode::axes);
-    request.regimes = check::select_axes(name);
     request.cases = cases;
-    for (std::size_t place = 0; place < request.regimes.size(); ++place) {
-      const kinds::AxisValue& value = check::value_of(*request.regimes[place]);
+    for (const kinds::Family* family : kinds::axis_families()) {
+      if (family->kind == &kinds::pair_kind() && family->axis == name) {
+        request.families.push_back(family);
+      }
+    }
+    const kinds::PairRequest of_pairs(request);
+    for (std::uint32_t place = 0; place < of_pairs.regimes.size(); ++place) {
+      const kinds::AxisValue& value = kinds::value_of(*of_pairs.regimes[place]);
       if (value.value > greatest) continue;
       SCOPED_TRACE(name + " " + value.name);
       EXPECT_EQ(std::stod(value.name), value.value);
       Drawn drawn;
-      drawn.cases = check::axis_cases(request, place, oracle, drawn.summary);
+      drawn.cases = kinds::axis_cases(of_pairs, place, oracle, drawn.summary);
       EXPECT_GT(drawn.cases.size(), 0u);
       for (grade::TrueCase& c : drawn.cases) {
         const Answer answer = c.truth(Encoding::as_given).measure.answer;
@@ -78,8 +84,8 @@ TEST_F(Axes, HaveTheEndsThatTheyPromise) {
   EXPECT_EQ(ends("coplanar"), "1e-1 to 0");
   EXPECT_EQ(ends("parallel"), "1e0 to 0");
   std::set<std::string> names;
-  for (const check::Regime* regime : check::select_axes(""))
-    EXPECT_TRUE(names.insert(regime->name).second);
+  for (const kinds::Regime& regime : kinds::regimes_of_axes())
+    EXPECT_TRUE(names.insert(regime.name).second);
 }
 
 TEST_F(Axes, Scale) {
@@ -292,8 +298,8 @@ TEST(RingedHull, IsConvexAndClosedAtEveryCount) {
   base::Random random(3);
   for (const std::size_t count : {4, 10, 100, 1000, 10'000, 100'000}) {
     SCOPED_TRACE(count);
-    const Vec3d radii = check::compact_half(1, random);
-    const std::shared_ptr<const Hull> hull = check::ringed_hull(count, radii);
+    const Vec3d radii = kinds::compact_half(1, random);
+    const std::shared_ptr<const Hull> hull = kinds::ringed_hull(count, radii);
     expect_good_hull(*hull, count);
     if (count > 1000) continue;
     for (const Hull::Face& face : hull->faces) {
@@ -309,7 +315,7 @@ TEST(RingedHull, TwoLargeOnesAreMoreThanSatWillLookAt) {
   const auto solved = [](std::size_t vertices, double apart, const char* name) {
     files::Case c;
     c.shape_a.kind = ShapeKind::hull;
-    c.shape_a.hull = check::ringed_hull(vertices, Vec3d(1, 0.75, 0.5));
+    c.shape_a.hull = kinds::ringed_hull(vertices, Vec3d(1, 0.75, 0.5));
     c.shape_b = c.shape_a;
     c.pose_b.translation = {apart, 0.25, 0.125};
     return process::solve_case(*registry::find<NarrowPhaseEntry>(name), {}, c, Task::penetration);

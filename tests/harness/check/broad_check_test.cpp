@@ -1,5 +1,5 @@
 // Tests that checks of broad phases accept ours and find planted faults.
-#include "harness/check/broad_check.h"
+#include "harness/kinds/box/broad_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,16 +51,16 @@ Status all_but(std::size_t dropped, std::span<const Aabb> boxes, PairSink& sink)
   return Status::ok;
 }
 
-std::vector<check::BroadCheck> check(const BroadPhaseEntry& entry,
-                                     std::span<const check::BoxScene> scenes) {
+std::vector<kinds::BroadCheck> check(const BroadPhaseEntry& entry,
+                                     std::span<const kinds::BoxScene> scenes) {
   const std::vector<const BroadPhaseEntry*> entries = {&entry};
-  return check::check_broad_phases(entries, scenes, 10);
+  return kinds::check_broad_phases(entries, scenes, 10);
 }
 
 TEST(BoxScenes, HaveFramesThatChangeAndPairsOfEachKind) {
-  const std::vector<check::BoxScene> scenes = check::box_scenes(1);
+  const std::vector<kinds::BoxScene> scenes = kinds::box_scenes(1);
   std::set<std::string> names;
-  for (const check::BoxScene& scene : scenes) {
+  for (const kinds::BoxScene& scene : scenes) {
     names.insert(scene.name);
     ASSERT_EQ(scene.frames.size(), 5u);
     std::size_t pairs = 0, apart = 0, empty = 0;
@@ -90,15 +90,15 @@ TEST(BoxScenes, HaveFramesThatChangeAndPairsOfEachKind) {
     EXPECT_GT(empty, 20u) << scene.name;
   }
   EXPECT_EQ(names.size(), scenes.size());
-  EXPECT_EQ(check::box_scenes(1)[0].frames, scenes[0].frames);
-  EXPECT_NE(check::box_scenes(2)[0].frames, scenes[0].frames);
+  EXPECT_EQ(kinds::box_scenes(1)[0].frames, scenes[0].frames);
+  EXPECT_NE(kinds::box_scenes(2)[0].frames, scenes[0].frames);
 }
 
 TEST(BroadCheck, EveryOneOfOurs) {
-  const std::vector<check::BoxScene> scenes = check::box_scenes(3);
+  const std::vector<kinds::BoxScene> scenes = kinds::box_scenes(3);
   for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
     if (entry.info.origin != Origin::ours) continue;
-    for (const check::BroadCheck& one : check(entry, scenes)) {
+    for (const kinds::BroadCheck& one : check(entry, scenes)) {
       EXPECT_TRUE(one.good()) << entry.info.name << ' ' << one.scene->name << ": " << one.faults();
       EXPECT_GT(one.pairs, 0);
     }
@@ -106,13 +106,13 @@ TEST(BroadCheck, EveryOneOfOurs) {
 }
 
 TEST(BroadCheck, ADroppedPairIsFound) {
-  const std::vector<check::BoxScene> scenes = check::box_scenes(1);
+  const std::vector<kinds::BoxScene> scenes = kinds::box_scenes(1);
   const BroadPhaseEntry good =
       planted_search([](auto boxes, auto& sink) { return all_but(0, boxes, sink); });
   const BroadPhaseEntry bad =
       planted_search([](auto boxes, auto& sink) { return all_but(1, boxes, sink); });
-  for (const check::BroadCheck& one : check(good, scenes)) EXPECT_TRUE(one.good()) << one.faults();
-  for (const check::BroadCheck& one : check(bad, scenes)) {
+  for (const kinds::BroadCheck& one : check(good, scenes)) EXPECT_TRUE(one.good()) << one.faults();
+  for (const kinds::BroadCheck& one : check(bad, scenes)) {
     EXPECT_FALSE(one.good());
     EXPECT_THAT(one.faults(), HasSubstr("frame 0: 1 missing"));
   }
@@ -138,30 +138,30 @@ class ForgetfulBroadPhase final : public BroadPhase {
 };
 
 TEST(BroadCheck, WrongAnswersToOtherQuestionsAreFound) {
-  const std::vector<check::BoxScene> scenes = {check::box_scenes(1)[0]};
+  const std::vector<kinds::BoxScene> scenes = {kinds::box_scenes(1)[0]};
   const BroadPhaseEntry entry = {
       .info = {.name = "planted", .citation = "a test", .origin = Origin::ours},
       .make = [](Executor&) { return std::make_unique<ForgetfulBroadPhase>(); }};
-  const std::vector<check::BroadCheck> checks = check(entry, scenes);
+  const std::vector<kinds::BroadCheck> checks = check(entry, scenes);
   ASSERT_EQ(checks.size(), 1u);
   EXPECT_FALSE(checks[0].good());
   for (const char* words :
        {"of the moved: ", "of the awake: ", "ended: ", "began of the awake: "}) {
     EXPECT_THAT(checks[0].faults(), HasSubstr(words));
   }
-  for (const check::FrameFaults& faults : checks[0].frames) {
+  for (const kinds::FrameFaults& faults : checks[0].frames) {
     EXPECT_TRUE(faults.pairs.none());
     EXPECT_TRUE(faults.began.none());
   }
 }
 
 TEST(BroadCheck, CrashesHangsAndRefusalsAreFound) {
-  const std::vector<check::BoxScene> scenes = {check::box_scenes(1)[0]};
+  const std::vector<kinds::BoxScene> scenes = {kinds::box_scenes(1)[0]};
   const auto status = [&](const Find& find, double seconds) {
     const BroadPhaseEntry entry = planted_search(find, Origin::peer);
     const std::vector<const BroadPhaseEntry*> entries = {&entry};
-    const std::vector<check::BroadCheck> checks =
-        check::check_broad_phases(entries, scenes, seconds);
+    const std::vector<kinds::BroadCheck> checks =
+        kinds::check_broad_phases(entries, scenes, seconds);
     EXPECT_FALSE(checks[0].good());
     EXPECT_FALSE(checks[0].faults().empty());
     return checks[0].status;

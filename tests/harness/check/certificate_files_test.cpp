@@ -21,25 +21,26 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-check::CertificateVerdicts verified(const std::filesystem::path& file) {
-  check::CertificateVerdicts verdicts;
+kinds::Verdicts verified(const std::filesystem::path& file) {
+  kinds::Verdicts verdicts(file.string());
   check::verify_certificates(file, verdicts);
   return verdicts;
 }
 
 TEST(CertificateFiles, WhatIsSavedIsVerified) {
   const TemporaryFolder folder;
-  const check::Regime balls = balls_regime();
+  const kinds::Regime balls = balls_regime();
   check::CheckRequest request;
-  request.regimes = {&balls, check::find_regime("gap-1e-9"), check::find_regime("depth-1e-3"),
-                     check::find_regime("touching-grid"), check::find_regime("degenerate-flat")};
-  ASSERT_EQ(std::ranges::count(request.regimes, nullptr), 0);
+  draw(request, balls);
+  for (const char* name : {"gap-1e-9", "depth-1e-3", "touching-grid", "degenerate-flat"}) {
+    draw(request, *kinds::find_regime(name));
+  }
   request.cases = 8;
   const auto file = folder.path() / "proofs.jsonl";
   EXPECT_EQ(check::save_certificates(request, file), 40);
-  const check::CertificateVerdicts verdicts = verified(file);
-  EXPECT_EQ(verdicts.verified, 40);
-  EXPECT_EQ(verdicts.refused_count, 0);
+  const kinds::Verdicts verdicts = verified(file);
+  EXPECT_EQ(verdicts.verified(), 40);
+  EXPECT_EQ(verdicts.refused(), 0);
 
   // One certificate claims the opposite, and one has a moved body.
   std::string text = folder.read("proofs.jsonl");
@@ -57,19 +58,21 @@ TEST(CertificateFiles, WhatIsSavedIsVerified) {
   replace(2, "\"radius\":1.0", "\"radius\":0.5");
   folder.write("spoilt.jsonl", text);
   const auto spoilt = folder.path() / "spoilt.jsonl";
-  const check::CertificateVerdicts found = verified(spoilt);
-  EXPECT_EQ(found.verified, 38);
-  EXPECT_EQ(found.refused_count, 2);
-  EXPECT_THAT(found.refused, ElementsAre(StartsWith(spoilt.string() + ":1: balls/"),
-                                         StartsWith(spoilt.string() + ":2: balls/")));
+  testing::internal::CaptureStderr();
+  const kinds::Verdicts found = verified(spoilt);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(found.verified(), 38);
+  EXPECT_EQ(found.refused(), 2);
+  EXPECT_THAT(told, StartsWith(spoilt.string() + ":1: balls/"));
+  EXPECT_THAT(told, HasSubstr("\n" + spoilt.string() + ":2: balls/"));
 }
 
 // The disk is full after the first proofs: what was there before is whole.
 TEST(CertificateFiles, AFullDiskLeavesTheOldFile) {
   const TemporaryFolder folder;
-  const check::Regime balls = balls_regime();
+  const kinds::Regime balls = balls_regime();
   check::CheckRequest request;
-  request.regimes = {&balls};
+  draw(request, balls);
   request.cases = 50;
   request.workers = 1;
   const auto file = folder.write("proofs.jsonl", "old\n");
@@ -94,8 +97,8 @@ TEST(CertificateFiles, BadFiles) {
   EXPECT_THAT(input_fault([&] { verified(folder.path() / "none.jsonl"); }),
               HasSubstr("none.jsonl: "));
   check::CheckRequest request;
-  const check::Regime balls = balls_regime();
-  request.regimes = {&balls};
+  const kinds::Regime balls = balls_regime();
+  draw(request, balls);
   request.cases = 1;
   EXPECT_THAT(input_fault([&] { check::save_certificates(request, folder.path() / "no/x.jsonl"); }),
               HasSubstr("cannot be written"));

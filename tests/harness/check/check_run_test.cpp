@@ -29,9 +29,9 @@ class CheckRun : public ::testing::Test {
  protected:
   check::CheckRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
     check::CheckRequest request;
-    request.narrow = narrow;
     request.scalars = {Precision::float64};
-    request.regimes = {&balls};
+    ask(request, narrow);
+    draw(request, balls);
     request.cases = 8;
     request.time_limit = 0.3;
     request.out = folder.path() / "out";
@@ -45,13 +45,16 @@ class CheckRun : public ::testing::Test {
     }
     return all;
   }
+  static const kinds::CaseChecker& cases(const check::CheckReport& result) {
+    return result.of<kinds::CaseChecker>();
+  }
   // Returns the counts of the only algorithm in the only regime.
   static const grade::AnswerCount& count(const check::CheckReport& result) {
-    return result.tally.answers().begin()->second;
+    return cases(result).answers().begin()->second;
   }
 
   TemporaryFolder folder;
-  check::Regime balls = balls_regime();
+  kinds::Regime balls = balls_regime();
 };
 
 TEST_F(CheckRun, AnAlgorithmThatIsRight) {
@@ -63,12 +66,12 @@ TEST_F(CheckRun, AnAlgorithmThatIsRight) {
   EXPECT_EQ(count(result).silent, 0);
   EXPECT_LT(count(result).distance, 1e-12);
   EXPECT_LT(count(result).too_deep, 1e-12);
-  EXPECT_THAT(result.failures, IsEmpty());
-  ASSERT_THAT(result.tally.jobs(), SizeIs(1));
-  EXPECT_EQ(result.tally.jobs()[0].boxes, 8 * 4);
-  EXPECT_EQ(result.tally.jobs()[0].boxes_broken, 0);
-  EXPECT_EQ(result.tally.jobs()[0].proven, 2);
-  EXPECT_EQ(result.tally.jobs()[0].refused, 0);
+  EXPECT_THAT(cases(result).failures(), IsEmpty());
+  ASSERT_THAT(cases(result).jobs(), SizeIs(1));
+  EXPECT_EQ(cases(result).jobs()[0].boxes, 8 * 4);
+  EXPECT_EQ(cases(result).jobs()[0].boxes_broken, 0);
+  EXPECT_EQ(cases(result).jobs()[0].proven, 2);
+  EXPECT_EQ(cases(result).jobs()[0].refused, 0);
   for (const char* name :
        {"grades.csv", "variants.csv", "jobs.csv", "progress.csv", "summary.csv", "machine.csv"}) {
     EXPECT_THAT(names(), Contains(name));
@@ -105,18 +108,19 @@ TEST_P(CheckRunHarm, IsFoundInOursAndInAPeers) {
     const std::vector<std::string> wrong = result.ours_wrong();
     EXPECT_EQ(!wrong.empty(), ours && harm.is_fault);
     if (!harm.is_fault) continue;
-    ASSERT_THAT(result.failures, Not(IsEmpty()));
-    const check::FailureCase& failure = result.failures.front();
+    ASSERT_THAT(cases(result).failures(), Not(IsEmpty()));
+    const kinds::FailureCase& failure = cases(result).failures().front();
+    const std::string command = failure.command(cases(result).subjects());
     EXPECT_THAT(failure.what,
                 HasSubstr(ours || harm.words != "does not separate" ? harm.words : ""));
     if (ours) {
       EXPECT_THAT(wrong, Contains(HasSubstr(failure.what)));
-      EXPECT_THAT(check::summary_text(result, 120), HasSubstr(failure.command(request)));
+      EXPECT_THAT(check::summary_text(result, 120), HasSubstr(command));
     }
     // The case file has a case that shows the fault.
     const std::vector<files::Case> cases = files::read_cases(failure.file);
     ASSERT_THAT(cases, Not(IsEmpty()));
-    EXPECT_THAT(failure.command(request), HasSubstr("--narrow bad --task "));
+    EXPECT_THAT(command, HasSubstr("--narrow bad --task "));
   }
 }
 
@@ -163,14 +167,14 @@ TEST_F(CheckRun, AnotherFormOfAPairHasTheSameAnswer) {
   const NarrowPhaseEntry entry = planted<Harm::wrong_side>("bad", Origin::ours);
   const check::CheckRequest request = request_for({&entry});
   const auto result = check::run_check(request);
-  const check::FlipCount& flips = result.tally.flips().begin()->second;
+  const kinds::FlipCount& flips = cases(result).flips().begin()->second;
   EXPECT_GT(flips.compared, 0);
   EXPECT_GT(flips.flips, 0);
   EXPECT_GT(flips.beyond, 0);
   EXPECT_NEAR(flips.worst_flip, 0.25, 0.02);
   EXPECT_THAT(result.ours_wrong(), Contains(HasSubstr("in another form differ")));
-  ASSERT_THAT(result.variant_failures, Not(IsEmpty()));
-  EXPECT_GE(files::read_cases(result.variant_failures[0].file).size(), 2u);
+  ASSERT_THAT(cases(result).variant_failures(), Not(IsEmpty()));
+  EXPECT_GE(files::read_cases(cases(result).variant_failures()[0].file).size(), 2u);
   EXPECT_THAT(read("variants.csv"), HasSubstr(",swap,"));
 }
 
@@ -221,8 +225,8 @@ TEST_F(CheckRun, ShrunkCasesStillFail) {
   const NarrowPhaseEntry bad = planted<Harm::wrong_side>("bad", Origin::ours);
   const check::CheckRequest request = request_for({&bad});
   const auto result = check::run_check(request);
-  ASSERT_THAT(result.failures, Not(IsEmpty()));
-  for (const check::FailureCase& failure : result.failures) {
+  ASSERT_THAT(cases(result).failures(), Not(IsEmpty()));
+  for (const kinds::FailureCase& failure : cases(result).failures()) {
     EXPECT_EQ(failure.answer.given.verdict, grade::Verdict::silent_error);
     for (const files::Case& c : files::read_cases(failure.file)) {
       EXPECT_GT((c.pose_b.translation - c.pose_a.translation).x(), 0);
@@ -233,16 +237,16 @@ TEST_F(CheckRun, ShrunkCasesStillFail) {
 TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
   const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
   check::CheckRequest request = request_for({&entry});
-  const check::Regime other = balls_regime("more-balls");
-  request.regimes = {&balls, &other};
+  const kinds::Regime other = balls_regime("more-balls");
+  draw(request, other);
   request.seconds = 0.5;
   const base::Stopwatch watch;
   const auto result = check::run_check(request);
   EXPECT_GE(watch.seconds(), 0.5);
-  EXPECT_GE(result.tally.jobs().size(), 3u);
-  for (std::size_t i = 0; i < result.tally.jobs().size(); ++i) {
-    EXPECT_EQ(result.tally.jobs()[i].round, i / 2);
-    EXPECT_EQ(result.tally.jobs()[i].regime, i % 2);
+  EXPECT_GE(cases(result).jobs().size(), 3u);
+  for (std::size_t i = 0; i < cases(result).jobs().size(); ++i) {
+    EXPECT_EQ(cases(result).jobs()[i].round, i / 2);
+    EXPECT_EQ(cases(result).jobs()[i].regime, i % 2);
   }
   // No case comes twice.
   std::map<std::string, int> seen;
@@ -250,21 +254,22 @@ TEST_F(CheckRun, RoundsGoOnForAsLongAsAsked) {
       .read([&](const files::CsvReader::Row& row) {
         ++seen[fmt::format("{} {} {}", row.text(0), row.text(1), row.text(2))];
       });
-  EXPECT_EQ(seen.size(), result.tally.jobs().size() * 8 * 3);
+  EXPECT_EQ(seen.size(), cases(result).jobs().size() * 8 * 3);
 }
 
 TEST_F(CheckRun, BoxesOfBodiesAreChecked) {
   const NarrowPhaseEntry entry = planted<Harm::none>("good", Origin::ours);
-  check::Regime all{
-      .name = "mixed", .group = "test", .what = "any", .draw = [](check::RegimeDraw& draw) {
-        return check::find_regime("random-mixed")->draw(draw);
+  kinds::Regime all{
+      .name = "mixed", .group = "test", .what = "any", .draw = [](kinds::RegimeDraw& draw) {
+        return kinds::find_regime("random-mixed")->draw(draw);
       }};
   check::CheckRequest request = request_for({&entry});
-  request.regimes = {&all};
+  request.families.clear();
+  draw(request, all);
   request.cases = 20;
   const auto result = check::run_check(request);
-  EXPECT_EQ(result.tally.jobs()[0].boxes, 80);
-  EXPECT_EQ(result.tally.jobs()[0].boxes_broken, 0);
+  EXPECT_EQ(cases(result).jobs()[0].boxes, 80);
+  EXPECT_EQ(cases(result).jobs()[0].boxes_broken, 0);
 }
 
 }  // namespace

@@ -20,23 +20,29 @@ class CountRun : public ::testing::Test {
  protected:
   check::CheckRequest request_for(const std::vector<const NarrowPhaseEntry*>& narrow) {
     check::CheckRequest request(check::CheckMode::count);
-    request.narrow = narrow;
-    request.regimes = {&balls, &others};
+    ask(request, narrow);
+    draw(request, balls);
+    draw(request, others);
     request.count = 4000;
     request.time_limit = 0.5;
     request.out = folder.path();
     return request;
   }
 
+  using Verdicts = std::map<kinds::RegimeKey, kinds::VerdictCount>;
+  static const Verdicts& verdicts(const check::CheckReport& result) {
+    return result.of<kinds::CountChecker>().verdicts();
+  }
+
   TemporaryFolder folder;
-  check::Regime balls = balls_regime(), others = balls_regime("others");
+  kinds::Regime balls = balls_regime(), others = balls_regime("others");
 };
 
 TEST_F(CountRun, TouchingWithinBoundsThatDoNotHoldIsWrong) {
   const NarrowPhaseEntry wrong = planted<Harm::touches_elsewhere>("wrong", Origin::ours);
   const check::CheckRequest request = request_for({&wrong});
   const check::CheckReport result = check::run_check(request);
-  EXPECT_EQ(result.tally.verdicts().at({0, Precision::float64, 0}).silent, 1000);
+  EXPECT_EQ(verdicts(result).at({0, Precision::float64, 0}).silent, 1000);
   EXPECT_THAT(result.ours_wrong(), Not(IsEmpty()));
 }
 
@@ -47,10 +53,10 @@ TEST_F(CountRun, CountsWhatIsTrueAndWhoIsWrong) {
   const check::CheckRequest request = request_for({&good, &wrong, &shy});
   const check::CheckReport result = check::run_check(request);
   EXPECT_EQ(result.jobs, 4);
-  ASSERT_EQ(result.tally.verdicts().size(), 6u);
+  ASSERT_EQ(verdicts(result).size(), 6u);
   for (std::uint32_t regime = 0; regime < 2; ++regime) {
-    const auto& count = [&](std::uint32_t entry) -> const check::VerdictCount& {
-      return result.tally.verdicts().at({entry, Precision::float64, regime});
+    const auto& count = [&](std::uint32_t entry) -> const kinds::VerdictCount& {
+      return verdicts(result).at({entry, Precision::float64, regime});
     };
     for (std::uint32_t entry = 0; entry < 3; ++entry) {
       EXPECT_EQ(count(entry).pairs, 2000);
@@ -80,7 +86,7 @@ TEST_F(CountRun, ACrashIsLostAndTheRestGoesOn) {
   request.count = 1;  // one whole job is the least
   const check::CheckReport result = check::run_check(request);
   EXPECT_EQ(result.jobs, 1);
-  EXPECT_GT(result.tally.verdicts().begin()->second.lost, 0);
+  EXPECT_GT(verdicts(result).begin()->second.lost, 0);
   EXPECT_THAT(result.ours_wrong(), IsEmpty());
 }
 
@@ -131,13 +137,15 @@ TEST_F(CountRun, OnlyGoesOnWithItsOwn) {
   EXPECT_THAT(input_fault([&] { check::run_check(request); }),
               HasSubstr("seed was '1' and is '2' now"));
   request.seed = 1;
-  request.narrow = {&other};
+  ask(request, {&other});
   EXPECT_THAT(input_fault([&] { check::run_check(request); }),
-              HasSubstr("narrow was 'good' and is 'other' now"));
-  request.narrow = {&good, &other};
-  EXPECT_THAT(input_fault([&] { check::run_check(request); }),
-              HasSubstr("narrow was 'good' and is 'good other' now"));
-  request.narrow = {&good};
+              HasSubstr("contestants was 'pair good double' and is 'pair other double' now"));
+  ask(request, {&good, &other});
+  EXPECT_THAT(
+      input_fault([&] { check::run_check(request); }),
+      HasSubstr(
+          "contestants was 'pair good double' and is 'pair good double, pair other double' now"));
+  ask(request, {&good});
   request.out = "/dev/null/x";
   request.resume = false;
   EXPECT_THAT(input_fault([&] { check::run_check(request); }), HasSubstr("cannot be made"));

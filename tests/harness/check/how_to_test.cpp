@@ -54,16 +54,16 @@ TEST(HowTo, TheBroadPhaseFindsAllPairs) {
 
 TEST(HowTo, TheNarrowPhaseIsRight) {
   const TemporaryFolder folder;
-  const check::Regime balls = balls_regime();
+  const kinds::Regime balls = balls_regime();
   const NarrowPhaseEntry mine = entries::narrow_phase_mine().at(0);
   check::CheckRequest request;
-  request.narrow = {&mine};
   request.scalars = {Precision::float64};
-  request.regimes = {&balls};
+  ask(request, {&mine});
+  draw(request, balls);
   request.cases = 40;
   request.out = folder.path() / "out";
   const auto result = check::run_check(request);
-  EXPECT_EQ(result.tally.answers().begin()->second.answers, 40 * 4);
+  EXPECT_EQ(result.of<kinds::CaseChecker>().answers().begin()->second.answers, 40 * 4);
   EXPECT_THAT(result.ours_wrong(), testing::IsEmpty());
 }
 

@@ -1,5 +1,5 @@
 // Tests that variants keep the exact answer, and map outcomes back exactly.
-#include "harness/check/metamorphic.h"
+#include "harness/kinds/pair/metamorphic.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "algorithms/hull/convex_hull.h"
-#include "harness/check/regimes/regimes.h"
+#include "harness/kinds/pair/regimes/regimes.h"
 #include "tests/harness/check/exact_answer.h"
 
 namespace touchstone {
@@ -48,13 +48,13 @@ TEST(Metamorphic, VariantsHaveTheSameExactAnswer) {
   oracle::Oracle oracle;
   std::map<std::string, int> kinds;
   std::map<Answer, int> answers;
-  for (const check::Regime& regime : check::regimes()) {
+  for (const kinds::Regime& regime : kinds::regimes()) {
     for (std::uint64_t i = 0; i < 8; ++i) {
       const files::Case c = make(regime, 21, i);
       const oracle::ExactMeasure exact = exact_measure(oracle, c);
       ++answers[exact.answer];
       base::Random random(5, i);
-      for (const check::Variant& variant : check::variants(c, random)) {
+      for (const kinds::Variant& variant : kinds::variants(c, random)) {
         ++kinds[variant.name.substr(0, 5)];
         const oracle::ExactMeasure measure = exact_measure(oracle, variant.transformed);
         const std::string& id = variant.transformed.id;
@@ -98,7 +98,7 @@ TEST(Metamorphic, OutcomesComeBackExactly) {
   outcome.witness_a = {0.1, 0.2, 0.3};
   outcome.witness_b = {-0.4, 0.5, 1.0 / 3};
   outcome.iterations = 3;
-  const files::Case c = make(check::regimes().front(), 1, 0);
+  const files::Case c = make(kinds::regimes().front(), 1, 0);
   const auto expect_same = [&](const Outcome& back) {
     EXPECT_EQ(back.answer, outcome.answer);
     EXPECT_EQ(back.status, outcome.status);
@@ -113,14 +113,14 @@ TEST(Metamorphic, OutcomesComeBackExactly) {
   Outcome swapped = outcome;
   swapped.normal = Vec3d::Zero() - swapped.normal;
   std::swap(swapped.witness_a, swapped.witness_b);
-  expect_same(check::to_original(check::swap_variant(c), swapped));
+  expect_same(kinds::to_original(kinds::swap_variant(c), swapped));
   for (const geometry::SignedPermutation& turn : geometry::signed_permutations()) {
     Outcome turned = outcome;
     for (Vec3d* v : {&turned.normal, &turned.witness_a, &turned.witness_b}) *v = turn(*v);
-    expect_same(check::to_original(check::rotation_variant(c, turn), turned));
+    expect_same(kinds::to_original(kinds::rotation_variant(c, turn), turned));
   }
   for (const int exponent : {-30, 17}) {
-    const auto scales = check::scale_variants(c, exponent);
+    const auto scales = kinds::scale_variants(c, exponent);
     ASSERT_EQ(scales.size(), 1u);
     Outcome large = outcome;
     large.distance = std::ldexp(large.distance, exponent);
@@ -128,15 +128,15 @@ TEST(Metamorphic, OutcomesComeBackExactly) {
     for (Vec3d* v : {&large.witness_a, &large.witness_b}) {
       for (double& x : *v) x = std::ldexp(x, exponent);
     }
-    expect_same(check::to_original(scales[0], large));
+    expect_same(kinds::to_original(scales[0], large));
   }
 }
 
 TEST(Metamorphic, ScalesHullsAsIfTheyWereBuiltAgain) {
   int hulls = 0;
   for (std::uint64_t i = 0; i < 60; ++i) {
-    const files::Case c = make(*check::find_regime("random-polytopes"), 3, i);
-    for (const check::Variant& variant : check::scale_variants(c, -13)) {
+    const files::Case c = make(*kinds::find_regime("random-polytopes"), 3, i);
+    for (const kinds::Variant& variant : kinds::scale_variants(c, -13)) {
       const Shape& shape = variant.transformed.shape_a;
       if (shape.kind != ShapeKind::hull) continue;
       const auto again = make_hull(shape.hull->vertices);
@@ -153,14 +153,14 @@ TEST(Metamorphic, ScalesHullsAsIfTheyWereBuiltAgain) {
 }
 
 TEST(Metamorphic, RefusesWhatIsNotExact) {
-  files::Case c = make(check::regimes().front(), 1, 0);
-  EXPECT_TRUE(check::scale_variants(c, 1100).empty());
-  EXPECT_TRUE(check::scale_variants(c, -1074).empty());
+  files::Case c = make(kinds::regimes().front(), 1, 0);
+  EXPECT_TRUE(kinds::scale_variants(c, 1100).empty());
+  EXPECT_TRUE(kinds::scale_variants(c, -1074).empty());
   // Nothing can be added to both of these without rounding.
   c.pose_a.translation = Vec3d::Constant(1e-300);
   c.pose_b.translation = Vec3d::Constant(1e300);
   base::Random random(1);
-  EXPECT_TRUE(check::translation_variants(c, random).empty());
+  EXPECT_TRUE(kinds::translation_variants(c, random).empty());
 }
 
 }  // namespace

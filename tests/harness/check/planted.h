@@ -4,12 +4,16 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <deque>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "algorithms/registry.h"
-#include "harness/check/axes/axes.h"
-#include "harness/check/check_request.h"
+#include "harness/check/family_checker.h"
+#include "harness/kinds/grading.h"
+#include "harness/kinds/pair/axes/axes.h"
+#include "harness/kinds/pair/pair_checkers.h"
 #include "tests/harness/check/pairs.h"
 
 namespace touchstone {
@@ -93,12 +97,12 @@ NarrowPhaseEntry planted(const std::string& name, Origin origin) {
 }
 
 // Draws balls of radius 1, alternately apart and overlapping, on both sides of each other.
-inline check::Regime balls_regime(const std::string& name = "balls",
+inline kinds::Regime balls_regime(const std::string& name = "balls",
                                   const std::string& group = "test") {
-  return {.name = name, .group = group, .what = "two balls", .draw = [](check::RegimeDraw& draw) {
+  return {.name = name, .group = group, .what = "two balls", .draw = [](kinds::RegimeDraw& draw) {
             const double gap = draw.index % 2 == 0 ? 0.5 : -0.5;
             const double side = draw.index / 2 % 2 == 0 ? 1 : -1;
-            check::RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
+            kinds::RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
             c.pair.pose_b.translation.y() = draw.random.uniform(-0.25, 0.25);
             return c;
           }};
@@ -107,17 +111,35 @@ inline check::Regime balls_regime(const std::string& name = "balls",
 // Draws balls of radius 1, alternately apart and overlapping. From the value 2 on the second ball
 // is on the right in half of the slots, where the planted algorithms do harm; otherwise it is on
 // the left.
-inline check::RegimeCase draw_balls(check::RegimeDraw& draw) {
-  const std::uint64_t slot = check::slot_of(draw.index);
+inline kinds::RegimeCase draw_balls(kinds::RegimeDraw& draw) {
+  const std::uint64_t slot = kinds::slot_of(draw.index);
   const double gap = slot % 2 == 0 ? 0.5 : -0.5;
   const double side = draw.regime.parameter >= 2 && slot / 2 % 2 == 0 ? 1 : -1;
-  check::RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
+  kinds::RegimeCase c{along_x(ball(1), ball(1), side * (2 + gap)), "ball"};
   c.pair.pose_b.translation.y() = draw.random.uniform(-0.25, 0.25);
   return c;
 }
 
-inline check::Axis balls_axis(int values) {
-  check::Axis axis;
+// Asks these narrow phases, in those of the request's scalars that they offer.
+inline void ask(check::CheckRequest& request, const std::vector<const NarrowPhaseEntry*>& narrow) {
+  request.contestants.clear();
+  for (const NarrowPhaseEntry* entry : narrow) {
+    for (const Precision scalar : request.scalars) {
+      if (!offers(*entry, scalar)) continue;
+      request.contestants.push_back(kinds::contestant_of(
+          kinds::pair_kind(), *entry, scalar == Precision::float64, scalar, kinds::every_task));
+    }
+  }
+}
+
+// Asks about the cases of this regime too.
+inline void draw(check::CheckRequest& request, const kinds::Regime& regime) {
+  static std::deque<kinds::Family> families;
+  request.families.push_back(&families.emplace_back(kinds::family_of(regime)));
+}
+
+inline kinds::Axis balls_axis(int values) {
+  kinds::Axis axis;
   axis.name = axis.what = "balls";
   axis.unit = "steps";
   axis.draw = draw_balls;

@@ -1,5 +1,5 @@
 // Tests that regimes draw good cases with the features, sizes and gaps that they state.
-#include "harness/check/regimes/regimes.h"
+#include "harness/kinds/pair/regimes/regimes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "harness/base/hash.h"
-#include "harness/check/regimes/features.h"
+#include "harness/kinds/pair/regimes/features.h"
 #include "tests/harness/check/box_gap.h"
 #include "tests/harness/temporary_folder.h"
 
@@ -63,9 +63,9 @@ void expect_good_pose(const Pose& pose, const std::string& id) {
 TEST(Regimes, HaveUniqueNamesInGroups) {
   std::set<std::string> names, groups;
   std::string group;
-  for (const check::Regime& regime : check::regimes()) {
+  for (const kinds::Regime& regime : kinds::regimes()) {
     EXPECT_TRUE(names.insert(regime.name).second) << regime.name;
-    EXPECT_EQ(check::find_regime(regime.name), &regime);
+    EXPECT_EQ(kinds::find_regime(regime.name), &regime);
     EXPECT_FALSE(regime.what.empty());
     if (regime.group != group) {
       EXPECT_TRUE(groups.insert(regime.group).second) << "group in two places: " << regime.group;
@@ -75,12 +75,12 @@ TEST(Regimes, HaveUniqueNamesInGroups) {
   EXPECT_THAT(groups,
               testing::UnorderedElementsAre("gap", "depth", "touching", "coincident", "degenerate",
                                             "aspect", "scale", "far", "ratio", "random"));
-  EXPECT_EQ(check::find_regime("gap"), nullptr);
+  EXPECT_EQ(kinds::find_regime("gap"), nullptr);
 }
 
 TEST(Regimes, MakeGoodCasesWithUniqueIds) {
   std::set<std::string> ids;
-  for (const check::Regime& regime : check::regimes()) {
+  for (const kinds::Regime& regime : kinds::regimes()) {
     for (std::uint64_t i = 0; i < indices; ++i) {
       const files::Case c = make(regime, 7, i);
       EXPECT_TRUE(ids.insert(c.id).second) << c.id;
@@ -103,18 +103,18 @@ TEST(Regimes, MakeGoodCasesWithUniqueIds) {
 
 TEST(Regimes, MakeTheSameCaseAgainInAnyOrderAndFromAnyThread) {
   std::vector<std::string> forward, backward;
-  for (const check::Regime& regime : check::regimes()) {
+  for (const kinds::Regime& regime : kinds::regimes()) {
     for (std::uint64_t i = 0; i < 12; ++i) forward.push_back(files::to_json(make(regime, 3, i)));
   }
   std::thread([&] {
-    for (std::size_t r = check::regimes().size(); r-- > 0;) {
+    for (std::size_t r = kinds::regimes().size(); r-- > 0;) {
       for (std::uint64_t i = 12; i-- > 0;)
-        backward.push_back(files::to_json(make(check::regimes()[r], 3, i)));
+        backward.push_back(files::to_json(make(kinds::regimes()[r], 3, i)));
     }
   }).join();
   std::ranges::reverse(backward);
   EXPECT_EQ(forward, backward);
-  const check::Regime& regime = check::regimes().front();
+  const kinds::Regime& regime = kinds::regimes().front();
   EXPECT_NE(files::to_json(make(regime, 3, 1)), files::to_json(make(regime, 4, 1)));
 }
 
@@ -122,7 +122,7 @@ TEST(Regimes, MakeTheSameCaseAgainInAnyOrderAndFromAnyThread) {
 // number. Hulls are left out, since their faces come in Qhull's order.
 TEST(Regimes, MakeTheSameCasesEverywhere) {
   std::uint64_t hash = 0;
-  for (const check::Regime& regime : check::regimes()) {
+  for (const kinds::Regime& regime : kinds::regimes()) {
     for (std::uint64_t i = 0; i < 40; ++i) {
       const files::Case c = make(regime, 1, i);
       if (c.shape_a.kind == ShapeKind::hull || c.shape_b.kind == ShapeKind::hull) continue;
@@ -139,7 +139,7 @@ TEST(Regimes, AreReadBackAsTheyWere) {
   std::vector<std::string> lines;
   {
     std::ofstream stream(file);
-    for (const check::Regime& regime : check::regimes()) {
+    for (const kinds::Regime& regime : kinds::regimes()) {
       for (std::uint64_t i = 0; i < 10; ++i) {
         lines.push_back(files::to_json(make(regime, 5, i)));
         stream << lines.back() << "\n";
@@ -153,7 +153,7 @@ TEST(Regimes, AreReadBackAsTheyWere) {
 
 TEST(Regimes, ProduceEveryPairOfFeaturesAndOfKinds) {
   std::set<std::string> details, kinds;
-  const check::Regime* const regime = check::find_regime("gap-1e-9");
+  const kinds::Regime* const regime = kinds::find_regime("gap-1e-9");
   ASSERT_NE(regime, nullptr);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const std::vector<std::string> parts = parts_of(make(*regime, 1, i).id);
@@ -177,18 +177,18 @@ TEST(Regimes, ProduceEveryPairOfFeaturesAndOfKinds) {
 
 TEST(Regimes, HaveTheSizesTheyName) {
   const auto sizes = [](const std::string& name, std::uint64_t i) {
-    const files::Case c = make(*check::find_regime(name), 2, i);
+    const files::Case c = make(*kinds::find_regime(name), 2, i);
     return std::pair(grade::shape_size(c.shape_a), grade::shape_size(c.shape_b));
   };
   for (std::uint64_t i = 0; i < indices; ++i) {
     for (const char* name : {"gap-1e-3", "depth-1e-12", "random-mixed", "aspect-1e8", "far-1e8"}) {
-      const files::Case c = make(*check::find_regime(name), 2, i);
+      const files::Case c = make(*kinds::find_regime(name), 2, i);
       EXPECT_GT(grade::pair_size(c), 0.3) << c.id;
       EXPECT_LE(grade::pair_size(c), 4) << c.id;
       EXPECT_EQ(grade::pair_size(c),
                 std::max(grade::shape_size(c.shape_a), grade::shape_size(c.shape_b)));
       const double away = std::min(c.pose_a.translation.norm(), c.pose_b.translation.norm());
-      if (check::find_regime(name)->group == "far") {
+      if (kinds::find_regime(name)->group == "far") {
         EXPECT_GT(away, 0.9e8) << c.id;
       } else {
         EXPECT_LT(away, 20) << c.id;
@@ -209,7 +209,7 @@ TEST(Regimes, HaveTheSizesTheyName) {
 TEST(Regimes, HaveNeedlesAndPlates) {
   int needles = 0, plates = 0;
   for (std::uint64_t i = 0; i < indices; ++i) {
-    const files::Case c = make(*check::find_regime("aspect-1e6"), 2, i);
+    const files::Case c = make(*kinds::find_regime("aspect-1e6"), 2, i);
     for (const Shape* shape : {&c.shape_a, &c.shape_b}) {
       if (shape->kind != ShapeKind::box) continue;
       Vec3d h = shape->half_extents;
@@ -227,7 +227,7 @@ TEST(Regimes, HaveNeedlesAndPlates) {
 TEST(Regimes, AchieveTheirGapsBetweenBoxes) {
   int checked = 0;
   for (const char* name : {"1e0", "1e-1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-14", "1e-15"}) {
-    const check::Regime& regime = *check::find_regime(std::string("gap-") + name);
+    const kinds::Regime& regime = *kinds::find_regime(std::string("gap-") + name);
     for (std::uint64_t i = 0; i < 400; ++i) {
       const files::Case c = make(regime, 11, i);
       if (c.shape_a.kind != ShapeKind::box || c.shape_b.kind != ShapeKind::box) continue;
@@ -246,7 +246,7 @@ TEST(Regimes, AchieveTheirGapsBetweenBoxes) {
 TEST(Regimes, AchieveTheirDepthsBetweenBoxes) {
   int checked = 0, exact = 0;
   for (const char* name : {"1e-3", "1e-6", "1e-9", "1e-12", "1e-14", "1e-15"}) {
-    const check::Regime& regime = *check::find_regime(std::string("depth-") + name);
+    const kinds::Regime& regime = *kinds::find_regime(std::string("depth-") + name);
     for (std::uint64_t i = 0; i < 400; ++i) {
       const files::Case c = make(regime, 11, i);
       if (c.shape_a.kind != ShapeKind::box || c.shape_b.kind != ShapeKind::box) continue;

@@ -29,15 +29,14 @@ struct CheckWork {
   static constexpr check::CheckMode mode = check::CheckMode::cases;
   static constexpr std::size_t units = 7;
   static constexpr const char* rows = "grades.csv";
-  static constexpr const char* subject = "regimes";
 
   CheckWork() {
     for (int i = 0; i < 7; ++i) regimes.push_back(balls_regime("balls-" + std::to_string(i)));
   }
   void set_subject(check::CheckRequest& request) const {
-    for (const check::Regime& regime : regimes) request.regimes.push_back(&regime);
+    for (const kinds::Regime& regime : regimes) draw(request, regime);
   }
-  static void shorten(check::CheckRequest& request) { request.regimes.pop_back(); }
+  static void shorten(check::CheckRequest& request) { request.families.pop_back(); }
   static std::vector<std::string> files() {
     return {"grades.csv", "variants.csv", "jobs.csv", "summary.csv"};
   }
@@ -46,34 +45,33 @@ struct CheckWork {
     return {{"grades.csv", "balls-6,3,sphere,sph"}, {"jobs.csv", "balls-6,test,0,8,0,0,0,0,0,0\n"}};
   }
 
-  std::vector<check::Regime> regimes;
+  std::vector<kinds::Regime> regimes;
 };
 
 struct AxesWork {
   static constexpr check::CheckMode mode = check::CheckMode::axes;
   static constexpr std::size_t units = 8;
   static constexpr const char* rows = "stress.csv";
-  static constexpr const char* subject = "axes";
 
   void set_subject(check::CheckRequest& request) const {
-    for (const check::Regime& value : values) request.regimes.push_back(&value);
+    for (const kinds::Regime& value : values) draw(request, value);
   }
-  static void shorten(check::CheckRequest& request) { request.regimes.clear(); }
+  static void shorten(check::CheckRequest& request) { request.families.clear(); }
   static std::vector<std::string> files() { return {"stress.csv", "cells.csv", "envelope.csv"}; }
   static std::map<std::string, std::string> leftovers() {
     return {{"stress.csv", "balls,7,bad,dou"}, {"cells.csv", "balls,7,8,0,0\n"}};
   }
 
-  check::Axis balls = balls_axis(8);
-  std::vector<check::Regime> values = check::regimes_of(balls);
+  kinds::Axis balls = balls_axis(8);
+  std::vector<kinds::Regime> values = kinds::regimes_of(balls);
 };
 
 template <class Work>
 class Resume : public ::testing::Test {
  protected:
   Resume() {
-    request.narrow = {&slow, &bad};
     request.scalars = {Precision::float64};
+    ask(request, {&slow, &bad});
     request.cases = 8;
     request.time_limit = 0.3;
     request.out = folder.path() / "out";
@@ -142,7 +140,7 @@ TYPED_TEST(Resume, NoRowIsLostOrDoubled) {
 }
 
 TYPED_TEST(Resume, AnotherRequestIsRefused) {
-  this->request.narrow = {&this->bad};
+  ask(this->request, {&this->bad});
   check::run_check(this->request);
   const std::string before = this->read(TypeParam::rows);
   this->request.resume = true;
@@ -154,8 +152,8 @@ TYPED_TEST(Resume, AnotherRequestIsRefused) {
   };
   refuse([](auto& r) { r.seed = 2; }, "seed was '1' and is '2' now");
   refuse([](auto& r) { r.cases = 9; }, "cases was '8'");
-  refuse([&](auto& r) { r.narrow = {&this->slow}; }, "narrow was 'bad'");
-  refuse([](auto& r) { TypeParam::shorten(r); }, TypeParam::subject);
+  refuse([&](auto& r) { ask(r, {&this->slow}); }, "contestants was 'pair bad double'");
+  refuse([](auto& r) { TypeParam::shorten(r); }, "families was");
   refuse([](auto& r) { r.scalars = {Precision::float32}; }, "scalars was 'double'");
   refuse([](auto& r) { r.time_limit = 3; }, "time_limit");
   refuse([](auto& r) { r.out /= "none"; }, "is not there");
@@ -163,7 +161,7 @@ TYPED_TEST(Resume, AnotherRequestIsRefused) {
 }
 
 TYPED_TEST(Resume, AnotherProgramAndShortFilesAreRefused) {
-  this->request.narrow = {&this->bad};
+  ask(this->request, {&this->bad});
   check::run_check(this->request);
   this->request.resume = true;
   const std::string facts = this->read("machine.csv");
@@ -182,10 +180,10 @@ TYPED_TEST(Resume, AnotherProgramAndShortFilesAreRefused) {
 TEST(ResumeCheck, RoundsMayBeAdded) {
   TemporaryFolder folder;
   const NarrowPhaseEntry good = planted<Harm::none>("good", Origin::ours);
-  const check::Regime balls = balls_regime();
+  const kinds::Regime balls = balls_regime();
   check::CheckRequest request;
-  request.narrow = {&good};
-  request.regimes = {&balls};
+  ask(request, {&good});
+  draw(request, balls);
   request.cases = 8;
   request.out = folder.path() / "out";
   check::run_check(request);

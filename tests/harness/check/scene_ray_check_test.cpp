@@ -38,7 +38,7 @@ TEST(SceneRayCheck, AnotherBodyOrLengthThanTheFirstIsWrong) {
   request.out = folder.path() / "out";
   const auto result = check::run_check(request);
   check::FamilyCount count;
-  for (const auto& [key, one] : result.tally.families()) {
+  for (const auto& [key, one] : result.of<check::FamilyChecker>().counts()) {
     if (key.form == kinds::CaseForm::as_drawn) count.add(one);
   }
   EXPECT_EQ(count.cases, 100);
@@ -61,7 +61,7 @@ TEST(SceneRayCheck, TwoWorkersCountAsOne) {
     const auto result = check::run_check(request);
     EXPECT_THAT(result.ours_wrong(), IsEmpty());
     std::int64_t hits = 0, misses = 0;
-    for (const auto& [key, count] : result.tally.families()) {
+    for (const auto& [key, count] : result.of<check::FamilyChecker>().counts()) {
       hits += count.contacts;
       misses += count.cases - count.contacts;
     }

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "harness/check/regimes/regimes.h"
+#include "harness/kinds/pair/regimes/regimes.h"
 #include "tests/harness/check/exact_answer.h"
 
 namespace touchstone {
@@ -38,7 +38,7 @@ TEST(TouchingRegimes, TouchExactlyInEveryEncoding) {
   for (const char* name :
        {"touching-baked", "touching-origin", "touching-grid", "touching-pythagorean"}) {
     for (std::uint64_t i = 0; i < count; ++i) {
-      const files::Case c = make(*check::find_regime(name), 9, i);
+      const files::Case c = make(*kinds::find_regime(name), 9, i);
       EXPECT_EQ(exact_verdict(oracle, c), Answer::touching) << c.id << "\n" << files::to_json(c);
       for (const Shape* shape : {&c.shape_a, &c.shape_b}) {
         if (shape->kind != ShapeKind::hull) continue;
@@ -57,11 +57,11 @@ TEST(TouchingRegimes, TouchExactlyInEveryEncoding) {
 TEST(TouchingRegimes, AreAnUlpApartOrAnUlpDeepWhereTheySaySo) {
   oracle::Oracle oracle;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const files::Case less = make(*check::find_regime("touching-less-an-ulp"), 9, i);
+    const files::Case less = make(*kinds::find_regime("touching-less-an-ulp"), 9, i);
     const oracle::Measure apart = exact_measure(oracle, less);
     EXPECT_EQ(apart.answer, Answer::separated) << less.id;
     EXPECT_LT(apart.upper, 5e-16) << less.id;
-    const files::Case more = make(*check::find_regime("touching-plus-an-ulp"), 9, i);
+    const files::Case more = make(*kinds::find_regime("touching-plus-an-ulp"), 9, i);
     const oracle::Measure deep = exact_measure(oracle, more);
     EXPECT_EQ(deep.answer, Answer::overlapping) << more.id;
     EXPECT_GT(deep.lower, -5e-16) << more.id;
@@ -71,7 +71,7 @@ TEST(TouchingRegimes, AreAnUlpApartOrAnUlpDeepWhereTheySaySo) {
 TEST(TouchingRegimes, CurvedBodiesTouchAsFarAsCanBeTold) {
   oracle::Oracle oracle;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const files::Case c = make(*check::find_regime("touching-curved"), 9, i);
+    const files::Case c = make(*kinds::find_regime("touching-curved"), 9, i);
     const oracle::Measure m = exact_measure(oracle, c);
     EXPECT_TRUE(m.answer == Answer::touching || m.answer == Answer::unknown) << c.id;
     EXPECT_LE(m.lower, 0) << c.id;
@@ -83,7 +83,7 @@ TEST(TouchingRegimes, CurvedBodiesTouchAsFarAsCanBeTold) {
 // Each regime produces the outcomes that it is for.
 TEST(Regimes, HaveBothOutcomes) {
   oracle::Oracle oracle;
-  for (const check::Regime& regime : check::regimes()) {
+  for (const kinds::Regime& regime : kinds::regimes()) {
     std::map<Answer, int> answers;
     constexpr std::uint64_t some = 60;
     for (std::uint64_t i = 0; i < some; ++i) {

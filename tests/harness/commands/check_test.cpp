@@ -11,7 +11,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/clock.h"
-#include "harness/check/regimes/regimes.h"
+#include "harness/kinds/pair/regimes/regimes.h"
 #include "harness/files/cases.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
@@ -50,7 +50,7 @@ TEST_F(CheckCommand, GradesOursAndFindsThemWithinTheirMargins) {
   for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (entry.info.origin == Origin::ours) names.insert(entry.info.name);
   }
-  for (const check::Regime& regime : check::regimes()) of_regimes.insert(regime.name);
+  for (const kinds::Regime& regime : kinds::regimes()) of_regimes.insert(regime.name);
   EXPECT_EQ(column("grades.csv", "algorithm"), names);
   EXPECT_EQ(column("grades.csv", "regime"), of_regimes);
   EXPECT_THAT(column("grades.csv", "scalar"), ElementsAre("double", "float"));

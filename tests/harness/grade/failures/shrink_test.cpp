@@ -9,8 +9,8 @@
 #include <string>
 
 #include "algorithms/hull/convex_hull.h"
-#include "harness/check/regimes/check_shapes.h"
-#include "harness/check/regimes/regimes.h"
+#include "harness/kinds/pair/regimes/check_shapes.h"
+#include "harness/kinds/pair/regimes/regimes.h"
 #include "tests/harness/check/exact_answer.h"
 #include "tests/harness/temporary_folder.h"
 
@@ -18,7 +18,7 @@ namespace touchstone {
 namespace {
 
 files::Case made(const char* regime, std::uint64_t index) {
-  return make(*check::find_regime(regime), 1, index);
+  return make(*kinds::find_regime(regime), 1, index);
 }
 
 // Returns the first case of the regime that fails.
@@ -36,7 +36,7 @@ TEST(Shrink, FindsTheOneVertexThatMatters) {
   files::Case c = made("random-mixed", 0);
   std::vector<Vec3d> vertices = made("gap-1e0", 0).shape_a.kind == ShapeKind::hull
                                     ? made("gap-1e0", 0).shape_a.hull->vertices
-                                    : check::box_as_hull({1, 2, 3}).hull->vertices;
+                                    : kinds::box_as_hull({1, 2, 3}).hull->vertices;
   vertices.insert(vertices.begin() + 3, planted);
   c.shape_a = hull_of(vertices);
   const auto fails = [&](const files::Case& x) {
@@ -114,7 +114,7 @@ TEST(Shrink, EndsAndGivesCasesThatCanBeRead) {
   int cases = 0;
   {
     std::ofstream stream(file);
-    for (const check::Regime& regime : check::regimes()) {
+    for (const kinds::Regime& regime : kinds::regimes()) {
       int calls = 0;
       const files::Case c = made(regime.name.c_str(), 1);
       const ShapeKind kind = c.shape_b.kind;

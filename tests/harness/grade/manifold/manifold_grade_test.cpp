@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "algorithms/registry.h"
-#include "harness/check/regimes/regimes.h"
+#include "harness/kinds/pair/regimes/regimes.h"
 #include "harness/grade/manifold/touching_area.h"
 #include "harness/kinds/manifold/manifold_kind.h"
 #include "harness/process/solve_case.h"
@@ -51,7 +51,7 @@ TEST(ManifoldGrade, OursOnEveryFamily) {
 // bodies, and the deepest is among them.
 TEST(ManifoldGrade, OursOnEveryRegime) {
   int apart = 0, common = 0, several = 0;
-  for (const check::Regime& regime : check::regimes()) {
+  for (const kinds::Regime& regime : kinds::regimes()) {
     for (std::uint64_t i = 0; i < 12; ++i) {
       const files::Case c = make(regime, 11, i);
       if (!offers(ours(), c.shape_a.kind, c.shape_b.kind)) continue;

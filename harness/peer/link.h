@@ -1,0 +1,67 @@
+// Questions to a peer and its answers, each a JSON object in a line.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/core/status.h"
+#include "harness/files/json_line.h"
+
+namespace touchstone::peer {
+
+// A question as it is sent. The id is a hash of all else in the line.
+struct Question {
+  std::string id;
+  std::string line;  // with the line break
+};
+
+// Where answers come from.
+class Link {
+ public:
+  virtual ~Link() = default;
+  // Returns one line for each question, in their order. `before` are lines that come first and have no answer, such as
+  // the mesh that the questions are about.
+  virtual std::vector<std::string> answers(std::string_view before,
+                                           std::span<const Question> questions) = 0;
+};
+
+// The id of a text: 16 hexadecimal digits.
+std::string id_of(std::string_view text);
+
+// Asks questions 0 to count - 1, a part at a time, and hands on their answers. Throws process::Garbage for a line that
+// is no answer to its question, or where `take` throws base::InputError.
+void ask(Link& link, std::string_view before, std::size_t count,
+         const std::function<files::OrderedJson(std::size_t)>& question,
+         const std::function<void(std::size_t, const files::JsonNode&)>& take);
+
+// --- values of answers; what is missing or null is not known, as may be parts of a vector, since JavaScript writes NaN
+// as null. All throw base::InputError. ---
+
+// NaN if it is not known. "inf" and "-inf" are numbers.
+double known_number(const files::JsonNode& answer, const char* key);
+Vec3d known_vector(const files::JsonNode& answer, const char* key);
+std::int32_t known_count(const files::JsonNode& answer, const char* key);  // -1 if it is not known
+// One of those that an algorithm may have; not_reported if it is not known.
+Status known_status(const files::JsonNode& answer);
+
+// The value with this name; nothing if the key is missing or null.
+template <class Value>
+std::optional<Value> known_name(const files::JsonNode& answer, const char* key,
+                                std::span<const Value> values) {
+  if (!answer.has(key) || answer.value().at(key).is_null()) return std::nullopt;
+  const files::JsonNode node = answer.at(key, "");
+  std::string names;
+  for (const Value value : values) {
+    if (node.value() == std::string(to_string(value))) return value;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", to_string(value));
+  }
+  node.fail(fmt::format("found {}; expected one of {}", node.found(), names));
+}
+
+}  // namespace touchstone::peer

@@ -1,0 +1,289 @@
+// Reads the first line of a peer, and adds it to the registry.
+#include "harness/peer/peer.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "algorithms/registry.h"
+#include "harness/base/error.h"
+#include "harness/base/input_file.h"
+#include "harness/files/output_file.h"
+#include "harness/peer/adapters.h"
+#include "harness/peer/offers.h"
+#include "harness/peer/peer_process.h"
+#include "harness/process/child_process.h"
+#include "harness/record/build_info.h"
+
+namespace touchstone::peer {
+namespace {
+
+constexpr double start_seconds = 60;
+
+// A program, which each process starts for itself when it first asks.
+class ProgramLink final : public Link {
+ public:
+  explicit ProgramLink(Program program) : program_(std::move(program)) {}
+
+  std::vector<std::string> answers(std::string_view before,
+                                   std::span<const Question> questions) override {
+    if (owner_ != getpid()) {
+      static_cast<void>(process_.release());  // it is the parent's
+      process_ = std::make_unique<PeerProcess>(program_);
+      owner_ = getpid();
+      process_->exchange(greeting(), 1);
+    }
+    std::string text(before);
+    for (const Question& question : questions) text += question.line;
+    try {
+      return process_->exchange(text, questions.size());
+    } catch (...) {
+      owner_ = -1;  // the next question gets a new program
+      process_.reset();
+      throw;
+    }
+  }
+
+ private:
+  Program program_;
+  std::unique_ptr<PeerProcess> process_;
+  pid_t owner_ = -1;
+};
+
+// Without an answer.
+std::string unsupported(const Question& question) {
+  return fmt::format(R"({{"id":"{}","status":"unsupported"}})", question.id);
+}
+
+// What a program answered elsewhere.
+class AnswersLink final : public Link {
+ public:
+  explicit AnswersLink(std::map<std::string, std::string, std::less<>> by_id)
+      : by_id_(std::move(by_id)) {}
+
+  std::vector<std::string> answers(std::string_view /*before*/,
+                                   std::span<const Question> questions) override {
+    std::vector<std::string> lines;
+    for (const Question& question : questions) {
+      const auto at = by_id_.find(question.id);
+      lines.push_back(at == by_id_.end() ? unsupported(question) : at->second);
+    }
+    return lines;
+  }
+
+ private:
+  std::map<std::string, std::string, std::less<>> by_id_;
+};
+
+[[noreturn]] void throw_error(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+}  // namespace
+
+// A file that is gone when it is closed. Processes that share it append whole parts.
+class QuestionWriter::Kept final : public Link {
+ public:
+  Kept() {
+    if (file_ == nullptr || fcntl(descriptor(), F_SETFL, O_APPEND) != 0) {
+      throw_error("temporary file");
+    }
+    keep(greeting());
+  }
+
+  std::vector<std::string> answers(std::string_view before,
+                                   std::span<const Question> questions) override {
+    std::string text(before);
+    std::vector<std::string> lines;
+    for (const Question& question : questions) {
+      text += question.line;
+      lines.push_back(unsupported(question));
+    }
+    keep(text);
+    return lines;
+  }
+
+  std::int64_t copy_to(files::OutputFile& output) const {
+    std::int64_t lines = 0;
+    std::string text(1 << 16, '\0');
+    for (off_t at = 0;;) {
+      const ssize_t got = pread(descriptor(), text.data(), text.size(), at);
+      if (got < 0) throw_error("temporary file");
+      if (got == 0) return lines;
+      at += got;
+      const std::string_view part(text.data(), static_cast<std::size_t>(got));
+      lines += std::ranges::count(part, '\n');
+      output.write(std::string(part));
+    }
+  }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  int descriptor() const { return fileno(file_.get()); }
+
+  void keep(std::string_view text) const {
+    while (!text.empty()) {
+      const ssize_t written = write(descriptor(), text.data(), text.size());
+      if (written < 0) throw_error("temporary file");
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  std::unique_ptr<std::FILE, Close> file_{std::tmpfile()};
+};
+
+namespace {
+
+// --- the first line ---
+
+using Add = void (*)(const AlgorithmInfo&, const files::JsonNode&, const std::shared_ptr<Link>&);
+constexpr auto kinds = std::to_array<std::pair<std::string_view, Add>>(
+    {{"pair", add_pair}, {"cast", add_cast}, {"ray", add_ray}, {"point", add_point}});
+
+constexpr std::string_view of_versions =
+    "0123456789.+_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-";
+constexpr std::string_view of_names = "0123456789abcdefghijklmnopqrstuvwxyz-";
+
+std::string word(const files::JsonNode& hello, const char* key, std::string_view letters,
+                 std::string_view expected) {
+  const files::JsonNode node = hello.at(key, expected);
+  const std::string& text = node.text(expected);
+  if (text.empty() || text.size() > 60 || text.find_first_not_of(letters) != std::string::npos) {
+    node.fail(fmt::format("found '{}'; expected {}", base::shortened(text), expected));
+  }
+  return text;
+}
+
+// NAME, or NAME@VERSION if it has one.
+std::string name_of(const files::JsonNode& hello) {
+  std::string name = word(hello, "name", of_names, "a name of small letters, digits and '-'");
+  if (hello.has("version")) {
+    name +=
+        '@' + word(hello, "version", of_versions, "a version of letters, digits, '.', '+', '-'");
+  }
+  return name;
+}
+
+void expect_new(const files::JsonNode& hello, const std::string& name) {
+  registry::for_each_kind([&]<class Entry>() {
+    if (registry::find<Entry>(name) == nullptr) return;
+    hello.fail(
+        fmt::format("an algorithm is called '{}' already; expected another name or version", name));
+  });
+}
+
+// `source` is called so in messages: the command, or the file with its line.
+std::string add_entries(const std::string& source, std::int64_t line, const files::Json& value,
+                        const std::shared_ptr<Link>& link) {
+  const files::JsonNode hello(source, line, value);
+  hello.as_object(R"(a peer's first line, such as {"protocol":1,"name":...,"kinds":...})");
+  const files::JsonNode protocol = hello.at("protocol", "the number of the protocol");
+  if (protocol.number() != protocol_version) {
+    protocol.fail(fmt::format("found {}; expected {}", protocol.found(), protocol_version));
+  }
+  AlgorithmInfo info = {.name = name_of(hello), .citation = source, .origin = Origin::peer};
+  expect_new(hello, info.name);
+  if (hello.has("library")) info.citation = hello.at("library", "").text("the library's name");
+  const files::JsonNode offers = hello.at("kinds", "an object with what is offered of each kind");
+  offers.as_object("an object with what is offered of each kind");
+  if (offers.size() == 0) offers.fail("found no kind; expected at least one");
+  for (const auto& [name, offer] : offers.value().items()) {
+    const auto* const at = std::ranges::find(kinds, name, &std::pair<std::string_view, Add>::first);
+    if (at == kinds.end()) {
+      offers.fail(fmt::format("found \"{}\"; expected some of pair, cast, ray, point", name));
+    }
+    const files::JsonNode node = offers.at(name.c_str(), "");
+    at->second(info, node.as_object("an object, such as {\"tasks\":[...]}"), link);
+  }
+  return info.name;
+}
+
+// All that this program asks.
+files::OrderedJson all_offers() {
+  const auto names = [](const auto& values) {
+    files::OrderedJson list = files::OrderedJson::array();
+    for (const auto value : values) list.push_back(to_string(value));
+    return list;
+  };
+  const files::OrderedJson scalars = names(all_scalars), shapes = names(all_shape_kinds);
+  return {{"pair", {{"tasks", names(all_tasks)}, {"scalars", scalars}, {"shapes", shapes}}},
+          {"cast",
+           {{"tasks", {"counts", "approach"}},
+            {"scalars", scalars},
+            {"shapes", shapes},
+            {"rotation", true},
+            {"approach", true}}},
+          {"ray", {{"tasks", {"closest", "any"}}, {"scalars", scalars}}},
+          {"point", {{"tasks", {"closest", "side"}}, {"scalars", {"double"}}}}};
+}
+
+files::OrderedJson hello_of_this(std::string_view name) {
+  return {{"protocol", protocol_version},
+          {"name", name},
+          {"version", record::build_facts[0].second},
+          {"kinds", all_offers()}};
+}
+
+}  // namespace
+
+std::string greeting() { return hello_of_this("touchstone").dump() + "\n"; }
+
+std::string add(const std::string& named) {
+  const Program program = program_of(named);
+  std::string line;
+  try {
+    PeerProcess process(program);
+    line = process.exchange(greeting(), 1, start_seconds).front();
+  } catch (const std::exception& error) {
+    throw base::InputError(fmt::format("--peer '{}': {}; expected its first line of JSON",
+                                       program.command, error.what()));
+  }
+  const files::Json hello = files::Json::parse(line, nullptr, false);
+  if (hello.is_discarded()) {
+    throw base::InputError(fmt::format("--peer '{}': found '{}'; expected a first line of JSON",
+                                       program.command, base::shortened(line, 200)));
+  }
+  return add_entries(fmt::format("--peer '{}'", program.command), 0, hello,
+                     std::make_shared<ProgramLink>(program));
+}
+
+std::string add_answers(const std::filesystem::path& file) {
+  std::map<std::string, std::string, std::less<>> by_id;
+  files::Json hello;
+  std::int64_t first = 0;
+  files::for_each_json_line(file, "answer", [&](const files::JsonNode& line) {
+    if (hello.is_null()) {
+      hello = line.value();
+      first = line.line();
+      return;
+    }
+    by_id[line.at("id", "the id of a question").text("the id of a question")] = line.value().dump();
+  });
+  return add_entries(file.string(), first, hello, std::make_shared<AnswersLink>(std::move(by_id)));
+}
+
+QuestionWriter::QuestionWriter()
+    : kept_(std::make_shared<Kept>()),
+      name_(add_entries("questions", 0, files::Json::parse(hello_of_this("questions").dump()),
+                        kept_)) {}
+
+std::int64_t QuestionWriter::save(const std::filesystem::path& file) const {
+  files::OutputFile output(file);
+  const std::int64_t lines = kept_->copy_to(output);
+  output.close();
+  return lines - 1;  // the first is the greeting
+}
+
+}  // namespace touchstone::peer
