@@ -108,7 +108,8 @@ TEST(ClosedForm, SaysExactlyWhatItTakes) {
   const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("closed-form");
   const auto takes = [&](ShapeKind a, ShapeKind b, Task task) { return offers(entry, a, b, task); };
   EXPECT_TRUE(takes(ShapeKind::box, ShapeKind::box, Task::penetration));
-  EXPECT_FALSE(takes(ShapeKind::box, ShapeKind::box, Task::distance));
+  EXPECT_TRUE(takes(ShapeKind::box, ShapeKind::box, Task::distance));
+  EXPECT_FALSE(takes(ShapeKind::box, ShapeKind::cylinder, Task::distance));
   EXPECT_TRUE(takes(ShapeKind::capsule, ShapeKind::box, Task::distance));
   EXPECT_TRUE(takes(ShapeKind::sphere, ShapeKind::box, Task::distance));
   EXPECT_TRUE(takes(ShapeKind::cone, ShapeKind::halfspace, Task::distance));
