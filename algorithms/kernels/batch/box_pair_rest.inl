@@ -115,17 +115,18 @@ TOUCHSTONE_TARGET FaceMeeting<Scalar> meet_at_face(const BoxColumns<Scalar>& box
 
   Vector inside = half_own[0] - Lanes::abs(at_own[0]);
   for (int k = 1; k < 3; ++k) inside = Lanes::min(half_own[k] - Lanes::abs(at_own[k]), inside);
-  const Vector lower = gap - error;
-  const Vector upper = (Lanes::sqrt(dot<Scalar>(between, between)) - inside) + error;
+  const Vector apart_at_most = Lanes::sqrt(dot<Scalar>(between, between)) - inside;
+  const Vector lower = gap - error, upper = apart_at_most + error;
 
   FaceMeeting<Scalar> found;
   found.apart = open & Lanes::to_bits(Lanes::less(zero, lower));
   found.measured =
       open & Lanes::to_bits(Lanes::less(upper - lower, GapError<Scalar>::widest * seen.size));
   found.overlapping = found.measured & Lanes::to_bits(Lanes::less(upper, zero));
-  found.touching =
-      found.measured & ~found.apart & ~found.overlapping &
-      Lanes::to_bits(Lanes::less(Lanes::abs(gap), GapError<Scalar>::at_contact * seen.size));
+  // Farther from contact another proof may decide.
+  const Vector farthest = Lanes::max(Lanes::abs(gap), apart_at_most);
+  found.touching = found.measured & ~found.apart & ~found.overlapping &
+                   Lanes::to_bits(Lanes::less(farthest, GapError<Scalar>::at_contact * seen.size));
   const Vector3<Scalar> opposite = difference<Scalar>(point, scaled<Scalar>(gap, normal));
   const Vector3<Scalar> on_a = select<Scalar>(of_b, point, opposite);
   const Vector3<Scalar> on_b = select<Scalar>(of_b, opposite, point);

@@ -114,14 +114,17 @@ bool solve_plain_box_rest(Task task, const Shape& shape_a, const Pose& pose_a, c
   const double inside =
       std::min({own.half[0] - std::abs(place[0]), own.half[1] - std::abs(place[1]),
                 own.half[2] - std::abs(place[2])});
-  const double lower = gap - error, upper = (std::sqrt(dot(line, line)) - inside) + error;
+  const double apart_at_most = std::sqrt(dot(line, line)) - inside;
+  const double lower = gap - error, upper = apart_at_most + error;
   const bool narrow = upper - lower < widest * size;
   const Answer answer = lower > 0   ? Answer::separated
                         : upper < 0 ? Answer::overlapping
                                     : Answer::touching;
   const bool asked = asks_for_number(task, answer);
   if (!narrow && (asked || answer != Answer::separated)) return false;
-  if (answer == Answer::touching && !(std::abs(gap) < at_contact * size)) return false;
+  // Farther from contact another proof may decide.
+  if (answer == Answer::touching && !(std::max(std::abs(gap), apart_at_most) < at_contact * size))
+    return false;
   write(answer, outcome);
   if (answer == Answer::touching || asked) {
     outcome.lower = lower;

@@ -351,5 +351,53 @@ TEST(PairLanes, JudgeBoxesThatRest) {
   }
 }
 
+// Hulls that rest: GJK ends at a face of the difference, with numbers, and no answer is wrong.
+TEST(RestingHulls, EndAtAFace) {
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("gjk");
+  Random random(8);
+  oracle::Oracle oracle;
+  for (const Rest rest : all_rests) {
+    Pairs pairs;
+    std::vector<oracle::Measure> truths;
+    for (std::size_t k = 0; k < drawn(120, 30); ++k) {
+      add_resting(random, rest, k % 2 == 0 ? 0 : 0x1p-52 * uniform(random, -64, 64), pairs);
+      Shape& block = pairs.shapes.back();
+      std::vector<Vec3d> corners;
+      for (int c = 0; c < 8; ++c) {
+        corners.push_back(block.half_extents.cwiseProduct(
+            Vec3d((c & 1) != 0 ? 1 : -1, (c & 2) != 0 ? 1 : -1, (c & 4) != 0 ? 1 : -1)));
+      }
+      block = bare_hull(std::move(corners), 3);
+      const oracle::Solid a(pairs.shapes[2 * k]), b(block);
+      truths.push_back(oracle.measure({a, pairs.poses[2 * k]}, {b, pairs.poses[2 * k + 1]}));
+    }
+    for (const Task task : all_tasks) {
+      const std::vector<Outcome> outcomes =
+          solve(entry, Precision::float64, task, pairs, pairs.size());
+      std::size_t touching = 0, by_epa = 0;
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const Outcome& o = outcomes[i];
+        const oracle::Measure& truth = truths[i];
+        SCOPED_TRACE(std::to_string(static_cast<int>(rest)) + " " + std::string(to_string(task)) +
+                     " pair " + std::to_string(i));
+        const bool is_touching = o.answer == Answer::touching;
+        touching += is_touching ? 1u : 0u;
+        by_epa += is_touching && o.iterations > 12 ? 1u : 0u;
+        ASSERT_TRUE(is_touching || truth.answer == Answer::touching || o.answer == truth.answer);
+        if (!is_touching && !asks_for_number(task, o.answer)) continue;
+        ASSERT_LE(o.lower, truth.upper);
+        ASSERT_GE(o.upper, truth.lower);
+        ASSERT_LE(o.upper - o.lower, 1.2e-13);
+        if (task == Task::intersect) continue;
+        ASSERT_NEAR(o.normal.norm(), 1, 1e-14);
+        ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(), 1e-13);
+      }
+      EXPECT_GT(touching, pairs.size() / 4);
+      EXPECT_LT(touching, pairs.size());
+      EXPECT_LT(by_epa, touching / 4);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchstone::pair_lanes_test
