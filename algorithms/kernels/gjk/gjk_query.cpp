@@ -172,10 +172,14 @@ GjkDistanceResult<Scalar> GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair
       .margin = static_cast<Scalar>(settings_.margin / pair.unit()) + rounding,
       .duality_gap = settings_.duality_gap,
       .most_iterations = std::max(1, settings_.gjk_cap - outcome.iterations),
-      .momentum = settings_.momentum};
+      .momentum = settings_.momentum,
+      .ends_at_face = task != Task::intersect};
   const GjkDistanceResult<Scalar> found = functions_.gjk_distance(pair, goal, last);
   outcome.iterations += found.iterations;
-  if (found.end == End::contact) {
+  if (found.end == End::at_face) {
+    // Bounds within rounding are narrow enough.
+    write_if_touching(pair, *found.face, task, outcome);
+  } else if (found.end == End::contact) {
     solve_contact(pair, found, task, outcome);
   } else if (asks_distance(task) && found.lower - pair.radius() > goal.margin) {
     write_beyond(pair.unit() * static_cast<double>(found.lower - pair.radius() - rounding),
