@@ -13,7 +13,9 @@
 //             one is a hull and the centres are far enough apart (kernels/gjk/first_plane).
 //          5. Continue in the distance loop, where each simplex bounds the distance from above and
 //             each support plane from below, until the bounds decide (kernels/gjk/gjk_distance).
-//          6. If the origin is in the cores' difference, EPA finds the depth or proves the verdict
+//          6. If the origin is in the cores' difference, a triangle of the simplex whose plane supports
+//             the difference at the origin bounds the signed distance on both sides
+//             (kernels/gjk/simplex_face). Else EPA finds the depth or proves the verdict
 //             (kernels/epa/expanding_polytope).
 //          7. Subtract the radii and write the outcome; a verdict is `ok` only if a bound proves it
 //             beyond rounding (kernels/gjk/gjk_query).

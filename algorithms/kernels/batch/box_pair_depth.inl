@@ -117,7 +117,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned on_boxes(const BoxProducts<Scalar>&
 // corner may lie beside it. Alternating projections on the features of a and b converge to points
 // of both.
 template <class Scalar>
-TOUCHSTONE_TARGET void slide_together(const BoxProducts<Scalar>& seen, Contact<Scalar>& contact) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void slide_together(const BoxProducts<Scalar>& seen,
+                                                        Contact<Scalar>& contact) {
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
   constexpr int rounds = 8;
@@ -247,13 +248,18 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> to_world(
           columns[0].z * v[0] + columns[1].z * v[1] + columns[2].z * v[2]};
 }
 
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> sum(const Vector3<Scalar>& a,
+                                                        const Vector3<Scalar>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
 // Writes all numbers of the outcomes of the lanes that overlap; returns the lanes for which this
 // was possible.
 template <class Scalar>
-TOUCHSTONE_TARGET unsigned write_depths(const PairTable<Scalar>& table, std::size_t begin,
-                                        const BoxColumns<Scalar>& boxes,
-                                        const BoxProducts<Scalar>& seen,
-                                        const LeastAxis<Scalar>& least, unsigned overlapping) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned write_depths(
+    const PairTable<Scalar>& table, std::size_t begin, const BoxColumns<Scalar>& boxes,
+    const BoxProducts<Scalar>& seen, const LeastAxis<Scalar>& least, unsigned overlapping) {
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
   Contact<Scalar> contact;

@@ -1,6 +1,9 @@
-// The separating-axis test of two boxes, with one pair in each lane of vectors. Used by
-// closed-form and clipped-faces.
+// The separating-axis test of two boxes, with one pair in each lane of vectors, and their distance.
+// Used by closed-form and clipped-faces.
 // Paper: Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996.
+//
+// Boxes that rest on each other touch at a face: if its plane and two points, one of each box, bound
+// the signed distance on both sides of zero within rounding, they are `touching`.
 //
 // The lanes handle pairs whose matrices are orthonormal up to rounding and whose sizes are within
 // 1e-10 to 1e12 metres. All other pairs, and those whose sign or witness points the lanes leave
@@ -24,7 +27,7 @@ class BoxPairLanes {
   // Reads the boxes among the shapes; other shapes are ignored.
   void bind(std::span<const Shape> shapes);
 
-  // Solves Task::intersect or Task::penetration. Writes the outcomes of all pairs but those whose
+  // Solves any task but Task::signed_distance. Writes the outcomes of all pairs but those whose
   // places it writes to `left`, which has room for all; returns their number.
   std::size_t solve(const BodyPairs& pairs, Task task, std::span<Outcome> outcomes,
                     std::uint32_t* left) const;

@@ -2,6 +2,7 @@
 // instructions, inside that level's namespace.
 
 #include "algorithms/kernels/batch/box_pair_load.inl"
+#include "algorithms/kernels/simd/vector3.inl"
 
 // A pair in the axes of each box; products[i][j] is the product of edge i of a and edge j of b.
 template <class Scalar>
@@ -156,7 +157,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, 
 struct Usable {
   unsigned far, near;
 };
-template <class Scalar>
+template <class Scalar, bool far_too>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>& boxes,
                                                         BoxProducts<Scalar>& seen) {
   using Lanes = Simd<Scalar>;
@@ -177,8 +178,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
   const Vector reach = Scalar(2.01) * (size_a * size_a * trace_a + size_b * size_b * trace_b);
   // The squares of far shorter columns underflow and give no bound.
   const Vector shortest = Lanes::broadcast(Scalar(1e-12));
-  const unsigned far = sized & Lanes::to_bits(Lanes::less(shortest, Lanes::min(trace_a, trace_b))) &
-                       Lanes::to_bits(Lanes::less(reach, dot<Scalar>(offset, offset)));
+  const unsigned far =
+      far_too ? 0
+              : sized & Lanes::to_bits(Lanes::less(shortest, Lanes::min(trace_a, trace_b))) &
+                    Lanes::to_bits(Lanes::less(reach, dot<Scalar>(offset, offset)));
   if ((~far & ((1u << Lanes::width) - 1)) == 0) return {far, 0};
   const Vector one = Lanes::broadcast(1);
   Vector skew_a = Lanes::broadcast(0), skew_b = skew_a;
@@ -194,30 +197,77 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Usable usable_lanes(const BoxColumns<Scalar>
   const unsigned orthonormal =
       Lanes::to_bits(Lanes::less(skew, Lanes::broadcast(greatest_skew<Scalar>))) &
       Lanes::to_bits(Lanes::less(trace_a + trace_b, Lanes::broadcast(8)));
-  return {far, sized & orthonormal & ~far};
+  const unsigned reached = far_too ? sized_lanes<Scalar>(seen.size) : ~far;
+  return {far, sized & orthonormal & reached};
 }
 
 #include "algorithms/kernels/batch/box_pair_depth.inl"
+#include "algorithms/kernels/batch/box_pair_distance.inl"
+#include "algorithms/kernels/batch/box_pair_rest.inl"
 
-template <class Scalar, bool depth>
-TOUCHSTONE_TARGET std::size_t solve_task(const PairTable<Scalar> table) {
+// The lanes whose faces leave open on which side of contact they are.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned resting_lanes(const BoxProducts<Scalar>& seen) {
   using Lanes = Simd<Scalar>;
-  std::size_t left = 0;
+  using Vector = typename Lanes::Vector;
+  const Vector error = GapError<Scalar>::coarse * seen.size;
+  return ~Lanes::to_bits(Lanes::less(error, Lanes::abs(seen.face_gap)));
+}
+
+// Settles the lanes that rest, and writes their numbers. The touching ones are in `near`.
+template <class Scalar, Task task>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE Signs settle_resting(const PairTable<Scalar>& table,
+                                                         std::size_t begin,
+                                                         const BoxColumns<Scalar>& boxes,
+                                                         const BoxProducts<Scalar>& seen,
+                                                         unsigned resting) {
+  const FaceMeeting<Scalar> found = meet_at_face<Scalar>(boxes, seen, resting);
+  if constexpr (task == Task::intersect) {
+    if (found.touching != 0) write_bounds<Scalar>(table, begin, found.touching, found.numbers);
+    return {found.touching, found.apart, found.overlapping};
+  } else {
+    constexpr bool distance = task == Task::distance;
+    const unsigned asked = distance ? found.apart : found.overlapping;
+    write_numbers<Scalar>(table, begin, found.measured & (found.touching | asked), found.numbers);
+    return {found.touching, distance ? found.apart & found.measured : found.apart,
+            found.overlapping};
+  }
+}
+
+// Solves groups of pairs from `begin` on: until some of a group rest, which is left for the other
+// loop, or with `resting` while some of them do. Each loop keeps in registers what it needs.
+// Returns where it ended.
+template <class Scalar, Task task, bool resting>
+TOUCHSTONE_TARGET std::size_t solve_groups(const PairTable<Scalar> table, std::size_t begin,
+                                           std::size_t& left) {
+  using Lanes = Simd<Scalar>;
+  constexpr bool depth = task == Task::penetration, distance = task == Task::distance;
   const std::size_t count = table.pairs.first.size();
-  BoxLoader<Scalar> loader(table);
-  for (std::size_t begin = 0; begin < count; begin += Lanes::width) {
+  BoxLoader<Scalar> loader(table, begin);
+  for (; begin < count; begin += Lanes::width) {
     BoxColumns<Scalar> boxes;
     BoxProducts<Scalar> seen;
     loader.load(begin, boxes);
-    const Usable usable = usable_lanes<Scalar>(boxes, seen);
-    Signs signs{usable.near, 0, 0};
+    const Usable usable = usable_lanes<Scalar, distance>(boxes, seen);
+    Signs signs{usable.near, 0, 0}, settled{0, 0, 0};
+    bool rests = false;
     if (signs.near != 0) {
       look_along_faces<Scalar>(boxes, seen);
       signs.apart = signs.near & Lanes::to_bits(Lanes::less(GapError<Scalar>::coarse * seen.size,
                                                             seen.face_gap));
+      if (signs.open() != 0) {
+        const unsigned lanes = signs.open() & resting_lanes<Scalar>(seen);
+        rests = lanes != 0;
+        if constexpr (resting) {
+          if (rests) settled = settle_resting<Scalar, task>(table, begin, boxes, seen, lanes);
+          signs.near &= ~(settled.near | settled.apart | settled.overlapping);
+        } else {
+          if (rests) return begin;
+        }
+      }
       // Boxes that no face separates are likely to overlap, and the least depth proves that too.
       // The order of the proofs does not change the answer.
-      const bool depth_first = depth && signs.apart == 0;
+      const bool depth_first = depth && signs.apart == 0 && (!resting || signs.near != 0);
       if (!depth_first) judge<Scalar>(seen, signs);
       LeastAxis<Scalar> least{};
       if constexpr (depth) {
@@ -228,14 +278,33 @@ TOUCHSTONE_TARGET std::size_t solve_task(const PairTable<Scalar> table) {
         signs.overlapping =
             write_depths<Scalar>(table, begin, boxes, seen, least, signs.overlapping);
       }
+      if (distance && signs.apart != 0) {
+        signs.apart = write_distances<Scalar>(table, begin, boxes, seen, signs.apart);
+      }
     }
-    left = write_answers<Scalar>(table, begin, usable.far | signs.apart, signs.overlapping, left);
+    left = write_answers<Scalar>(table, begin, usable.far | signs.apart | settled.apart,
+                                 signs.overlapping | settled.overlapping | settled.near, left);
+    if constexpr (resting) {
+      if (settled.near != 0) write_touching<Scalar>(table, begin, settled.near);
+      if (!rests) return begin + Lanes::width;
+    }
+  }
+  return begin;
+}
+
+template <class Scalar, Task task>
+TOUCHSTONE_TARGET std::size_t solve_task(const PairTable<Scalar>& table) {
+  std::size_t left = 0, begin = 0;
+  while (begin < table.pairs.first.size()) {
+    begin = solve_groups<Scalar, task, false>(table, begin, left);
+    begin = solve_groups<Scalar, task, true>(table, begin, left);
   }
   return left;
 }
 
 template <class Scalar>
 TOUCHSTONE_TARGET std::size_t solve_boxes(const PairTable<Scalar>& table, Task task) {
-  if (task == Task::penetration) return solve_task<Scalar, true>(table);
-  return solve_task<Scalar, false>(table);
+  if (task == Task::penetration) return solve_task<Scalar, Task::penetration>(table);
+  if (task == Task::distance) return solve_task<Scalar, Task::distance>(table);
+  return solve_task<Scalar, Task::intersect>(table);
 }

@@ -16,7 +16,9 @@ class BoxLoader {
   using Vector = typename Lanes::Vector;
 
  public:
-  TOUCHSTONE_TARGET explicit BoxLoader(const PairTable<Scalar>& table) : table_(table) {}
+  // The first group is that from `begin` on.
+  TOUCHSTONE_TARGET BoxLoader(const PairTable<Scalar>& table, std::size_t /*begin*/)
+      : table_(table) {}
 
   // Loads one pair a lane from `begin` on; the last pair fills up the lanes.
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load(std::size_t begin, BoxColumns<Scalar>& boxes) {
@@ -69,8 +71,8 @@ class BoxLoader<float> {
   using Lanes = Simd<float>;
 
  public:
-  TOUCHSTONE_TARGET explicit BoxLoader(const PairTable<float>& table) : table_(table) {
-    if (side_by_side) gather(0);
+  TOUCHSTONE_TARGET BoxLoader(const PairTable<float>& table, std::size_t begin) : table_(table) {
+    if (side_by_side) gather(begin);
   }
 
   TOUCHSTONE_TARGET TOUCHSTONE_INLINE void load(std::size_t begin, BoxColumns<float>& boxes) {

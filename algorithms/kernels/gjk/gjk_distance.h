@@ -25,6 +25,7 @@
 
 #include "algorithms/core/outcome.h"
 #include "algorithms/kernels/gjk/gjk_iteration.h"
+#include "algorithms/kernels/gjk/simplex_face.h"
 #include "algorithms/kernels/gjk/warm_start.h"
 
 namespace touchstone {
@@ -43,6 +44,8 @@ struct GjkDistanceGoal {
   std::optional<double> duality_gap = {};  // square metres; replaces the tolerance
   int most_iterations = 0;
   Momentum momentum = Momentum::none;
+  // End where cores without radius touch at a face, both bounds within rounding.
+  bool ends_at_face = false;
 
   // Returns true if the lower bound is too far below the nearest point's distance to stop. Both are
   // for the cores.
@@ -60,6 +63,7 @@ template <class Scalar>
 struct GjkDistanceResult {
   enum class End {
     decided,    // the bounds suffice for the task
+    at_face,    // `face` holds the contact; only if the goal asks for that
     contact,    // the origin is inside the simplex, or on it up to rounding
     no_better,  // rounding prevents progress
     cap,
@@ -70,7 +74,8 @@ struct GjkDistanceResult {
   Scalar lower = 0;
   Scalar upper = std::numeric_limits<Scalar>::infinity();
   Vec3<Scalar> direction = Vec3<Scalar>::Zero();  // unit normal of that lower bound; zero: none
-  bool warm_hit = false;                          // the previous frame's result sufficed
+  std::optional<FaceContact<Scalar>> face = {};
+  bool warm_hit = false;  // the previous frame's result sufficed
   int iterations = 0;
 };
 

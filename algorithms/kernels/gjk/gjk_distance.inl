@@ -109,6 +109,17 @@ bool run_fast_gjk(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal
     return true;
   }
   if (found.simplex.size == 0) return false;
+  if (goal.ends_at_face && quick.end == FastGjkEnd::doubtful && pair.radius() == 0) {
+    constexpr Scalar rounding = SupportPair<Scalar>::rounding;
+    found.face = find_face_contact(pair, found.simplex, rounding, rounding);
+    if (found.face) {
+      found.lower = found.face->lower;
+      found.upper = found.face->upper;
+      found.direction = found.face->normal;
+      found.end = End::at_face;
+      return true;
+    }
+  }
   if (quick.moved) {
     found.nearest = reduce_to_nearest(found.simplex);
     if (is_contact(found)) return true;

@@ -37,19 +37,22 @@ bool is_surely_inside(const Simplex<Scalar>& simplex) {
   if (!(longest <= longest_in_range) || !(least > 0 || most < 0)) return false;
   const Scalar quickly = 512 * u * greatest * (1 + longest);
   if (least > quickly || most < -quickly) return true;
-  const auto area = [&](int i, int j) { return w(i).cross(w(j)).norm(); };
-  const Scalar a01 = area(0, 1), a02 = area(0, 2), a03 = area(0, 3);
-  const Scalar a12 = area(1, 2), a13 = area(1, 3), a23 = area(2, 3);
-  const std::array<Scalar, 4> areas = {a12 + a23 + a13, a02 + a23 + a03, a01 + a13 + a03,
-                                       a01 + a12 + a02};
+  // The face that is most in doubt comes first.
+  const auto doubt = [&](int i, int j) { return std::abs(parts[i]) < std::abs(parts[j]) ? i : j; };
+  const int first = doubt(doubt(0, 1), doubt(2, 3));
   constexpr Scalar r = corner_rounding<Scalar>;
-  for (int i = 0; i < 4; ++i) {
+  // Less than the first of the areas below.
+  const Scalar base = r * r * w((first + 1) % 4).cross(w((first + 2) % 4)).squaredNorm();
+  if (parts[first] * parts[first] < Scalar(0.99) * base) return false;
+  for (int k = 0; k < 4; ++k) {
+    const int i = (first + k) % 4, p = (i + 1) % 4, q = (i + 2) % 4, s = (i + 3) % 4;
+    const auto area = [&](int j, int l) { return w(j).cross(w(l)).norm(); };
+    const Scalar areas = area(p, q) + area(q, s) + area(p, s);
     // Of the face's own corners, since one may be far from the others.
-    const Scalar square =
-        std::max({squares[(i + 1) % 4], squares[(i + 2) % 4], squares[(i + 3) % 4]});
+    const Scalar square = std::max({squares[p], squares[q], squares[s]});
     const Scalar length = std::sqrt(square);
     const Scalar rest = r * (16 * u * square + 3 * r * length + r * r) + 64 * u * square * length;
-    if (!(std::abs(parts[i]) > r * areas[i] + rest)) return false;
+    if (!(std::abs(parts[i]) > r * areas + rest)) return false;
   }
   return true;
 }

@@ -38,21 +38,27 @@ bool write_if_touching(const SupportPair<Scalar>& pair, Scalar lower, Scalar upp
                            unit * resolution<Scalar>, outcome);
 }
 
-// Writes `touching` and returns true if cores without radius touch in the plane of a triangle of the
-// simplex: its points bound the signed distance from above, the support along its normal from below.
+// Writes `touching` and returns true if the contact's bounds allow it.
 template <class Scalar>
-bool is_at_a_face(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex, Outcome& outcome) {
-  constexpr Scalar near = 2 * SupportPair<Scalar>::rounding;
+bool write_if_touching(const SupportPair<Scalar>& pair, const FaceContact<Scalar>& contact,
+                       Task task, Outcome& outcome) {
+  if (!write_if_touching(pair, contact.lower, contact.upper, outcome)) return false;
+  if (task == Task::intersect) return true;
+  const DifferencePoint<Scalar> nearest = weighted_mean(contact.triangle);
+  write(pair, contact.lower, contact.lower, contact.upper, contact.normal, nearest.a, nearest.b,
+        outcome);
+  return true;
+}
+
+// Writes `touching` and returns true if cores without radius touch in the plane of a triangle of the
+// simplex, and both bounds are within rounding, so that no longer search could tell more.
+template <class Scalar>
+bool is_at_a_face(SupportPair<Scalar>& pair, const Simplex<Scalar>& simplex, Task task,
+                  Outcome& outcome) {
+  constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   if (pair.radius() > 0) return false;
-  const auto face = nearest_face(simplex, Vec3<Scalar>(-pair.centre_b()));
-  if (!face || face->distance > near) return false;
-  Simplex<Scalar> triangle;
-  triangle.size = 3;
-  for (std::size_t k = 0; k < 3; ++k) triangle.points[k] = simplex.points[face->corners[k]];
-  const Scalar upper = reduce_to_nearest(triangle).distance;
-  if (upper > near) return false;
-  const Scalar height = face->normal.dot(pair.support(face->normal).difference);
-  return write_if_touching(pair, std::min(-height, Scalar{0}), upper, outcome);
+  const auto contact = find_face_contact(pair, simplex, rounding, rounding);
+  return contact && write_if_touching(pair, *contact, task, outcome);
 }
 
 }  // namespace
@@ -143,7 +149,11 @@ void GjkQuery<Scalar>::decide(const CentreOffset& offset, const SupportShape<Sca
   const FastGjkResult<Scalar> found = functions_.fast_gjk(pair, goal, tolerance(true), begin);
   outcome.iterations += found.iterations;
   if (found.end != FastGjkEnd::apart && found.end != FastGjkEnd::inside) {
-    solve_pair(pair, Task::intersect, nullptr, outcome);
+    if (is_at_a_face(pair, found.simplex, Task::intersect, outcome)) {
+      outcome.support_calls = pair.support_calls();
+    } else {
+      solve_pair(pair, Task::intersect, nullptr, outcome);
+    }
     return;
   }
   outcome.answer = found.end == FastGjkEnd::apart ? Answer::separated : Answer::overlapping;
@@ -162,10 +172,14 @@ GjkDistanceResult<Scalar> GjkQuery<Scalar>::solve_pair(SupportPair<Scalar>& pair
       .margin = static_cast<Scalar>(settings_.margin / pair.unit()) + rounding,
       .duality_gap = settings_.duality_gap,
       .most_iterations = std::max(1, settings_.gjk_cap - outcome.iterations),
-      .momentum = settings_.momentum};
+      .momentum = settings_.momentum,
+      .ends_at_face = task != Task::intersect};
   const GjkDistanceResult<Scalar> found = functions_.gjk_distance(pair, goal, last);
   outcome.iterations += found.iterations;
-  if (found.end == End::contact) {
+  if (found.end == End::at_face) {
+    // Bounds within rounding are narrow enough.
+    write_if_touching(pair, *found.face, task, outcome);
+  } else if (found.end == End::contact) {
     solve_contact(pair, found, task, outcome);
   } else if (asks_distance(task) && found.lower - pair.radius() > goal.margin) {
     write_beyond(pair.unit() * static_cast<double>(found.lower - pair.radius() - rounding),
@@ -213,7 +227,14 @@ void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair,
     outcome.status = Status::ok;
     return;
   }
-  if (task == Task::intersect && is_at_a_face(pair, found.simplex, outcome)) return;
+  if (!proven && radius == 0) {
+    // A verdict may be less sharp: EPA takes several times as long.
+    const bool verdict = task == Task::intersect;
+    const auto contact =
+        find_face_contact(pair, found.simplex, verdict ? 2 * rounding : rounding,
+                          verdict ? std::numeric_limits<Scalar>::infinity() : rounding);
+    if (contact && write_if_touching(pair, *contact, task, outcome)) return;
+  }
   ExpansionGoal<Scalar> goal{.tolerance = tolerance(pair.is_polytope()),
                              .doubtful = !inside_core && !on_core};
   if (!asks_depth(task)) goal.enough = rounding;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "algorithms/core/cofactors.h"
 #include "algorithms/kernels/minkowski/resolution.h"
@@ -61,12 +62,88 @@ void answer(Task task, double distance, double rounding, double widest, const Ve
   outcome.witness_b = on_a + distance * normal;
 }
 
+// Solves a box over a half-space in double. Returns false if the bounds would be further apart than
+// those in long double, or if the matrix of b is far from a rotation.
+//
+// `normal` is the matrix of b's cofactors times n, as it is; `size` sums the absolute values of all
+// products of which it and the heights consist. No height is off by more than 14 roundings of that.
+bool solve_plain_box(const SupportShape<double>& a, const Pose& pose_a,
+                     const SupportShape<double>& b, const Pose& pose_b, Task task,
+                     Outcome& outcome) {
+  constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+  constexpr double rounding = 15 * u, scaling = 20 * u, widest_part = 32 * u, nearly_one = 1e-8;
+  constexpr double least_length = 1e-280;  // products of shorter ones lose digits
+  const double *const m = pose_b.rotation.data(), *const r = pose_a.rotation.data();
+  const double *const n = b.normal.data(), *const to = pose_a.translation.data(),
+                      *const from = pose_b.translation.data();
+  double normal[3] = {}, most[3] = {}, determinant = 0, most_determinant = 0;
+  for (int j = 0; j < 3; ++j) {
+    if (n[j] == 0) continue;
+    const double *const own = m + 3 * j, *const next = m + 3 * ((j + 1) % 3),
+                        *const last = m + 3 * ((j + 2) % 3);
+    determinant = most_determinant = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      const double plus = next[k1] * last[k2], minus = next[k2] * last[k1];
+      const double cofactor = plus - minus, sum = std::abs(plus) + std::abs(minus);
+      normal[k] += cofactor * n[j];
+      most[k] += sum * std::abs(n[j]);
+      determinant += cofactor * own[k];
+      most_determinant += sum * std::abs(own[k]);
+    }
+  }
+  const double square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  if (!(std::abs(square - 1) < nearly_one && determinant > 0.5)) return false;
+  double height = -b.offset * determinant, size = std::abs(b.offset) * most_determinant;
+  for (int k = 0; k < 3; ++k) {
+    const double offset = to[k] - from[k];
+    height += normal[k] * offset;
+    size += most[k] * std::abs(offset);
+  }
+  const double offsets = std::abs(height);
+  double extents = 0, greatest = 0, half[3], along[3];
+  for (int k = 0; k < 3; ++k) {
+    const double* const axis = r + 3 * k;
+    half[k] = a.unit * a.extents[k];
+    along[k] = normal[0] * axis[0] + normal[1] * axis[1] + normal[2] * axis[2];
+    height -= half[k] * std::abs(along[k]);
+    extents += half[k];
+    for (int i = 0; i < 3; ++i) greatest = std::max(greatest, std::abs(axis[i]));
+  }
+  // No number of the matrix of a is above one, but for rounding.
+  size += extents * (most[0] + most[1] + most[2]);
+  const double lengths = offsets + extents;
+  // Half of the sum of these lengths is at most the unit that the long doubles would have.
+  const double error = rounding * size + scaling * std::abs(height);
+  if (!(greatest < 1.001 && lengths > least_length && error <= widest_part / 2 * lengths))
+    return false;
+  // The root of a number next to one.
+  const double inverse = 1.5 - 0.5 * square;
+  const double distance = height * inverse;
+  Vec3d down = Vec3d::Zero(), on_a = Vec3d::Zero();
+  if (task != Task::intersect) {
+    down = -inverse * Vec3d(normal[0], normal[1], normal[2]);
+    on_a = pose_a.translation;
+    for (int k = 0; k < 3; ++k) {
+      const double reach = along[k] > 0 ? -half[k] : half[k];
+      for (int i = 0; i < 3; ++i) on_a[i] += reach * r[3 * k + i];
+    }
+  }
+  answer(task, distance, error, widest_part * lengths, down, on_a, outcome);
+  outcome.iterations = 0;
+  outcome.support_calls = 1;
+  return true;
+}
+
 }  // namespace
 
 template <class Scalar>
 void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
                      const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
                      Outcome& outcome) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    if (a.core == SupportCore::box && solve_plain_box(a, pose_a, b, pose_b, task, outcome)) return;
+  }
   const auto [plane, plane_height] = world_plane(b, pose_b);
   const Wide3 turned_centre = pose_a.rotation.cast<Wide>() * wide(a.centre);
   const Wide3 from_b = turned_centre + (wide(pose_a.translation) - wide(pose_b.translation));

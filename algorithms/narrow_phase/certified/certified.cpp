@@ -4,7 +4,8 @@
 //          arithmetic); Gilbert, Johnson, Keerthi, 1988, as in gjk.cpp.
 // Steps:   1. Half-space: bound the height of the lowest point over the plane, for a verdict in
 //             doubles first, then in long double (halfspace_bounds).
-//          2. Pairs whose bounding balls are apart are separated (not for distance).
+//          2. Pairs whose bounding balls are apart are separated (not for distance). Boxes that stand
+//             level, on each other or on a half-space, are decided by exact sums (level_contact).
 //          3. intersect: run GJK's fast iteration; accept a support plane, a tetrahedron around the
 //             origin or a point within the radii that holds by more than the bound of
 //             proven_rounding.h. Otherwise run GJK's distance loop, which may prove the verdict in
@@ -44,6 +45,7 @@
 #include "algorithms/narrow_phase/certified/distance_bounds.h"
 #include "algorithms/narrow_phase/certified/double_bounds.h"
 #include "algorithms/narrow_phase/certified/halfspace_bounds.h"
+#include "algorithms/narrow_phase/certified/level_contact.h"
 #include "algorithms/narrow_phase/certified/placed_body.h"
 #include "algorithms/narrow_phase/certified/polytope_contact.h"
 #include "algorithms/narrow_phase/certified/proven_rounding.h"
@@ -119,6 +121,12 @@ bool Certified::filter(const PlacedPair& bodies, Task task, Outcome& outcome) {
   if (!asks_distance(task) &&
       balls_are_apart(a.shape.support(), a.pose, b.shape.support(), b.pose)) {
     return write_verdict(Answer::separated, outcome);
+  }
+  const Shape &shape_a = *a.shape.proven.shape, &shape_b = *b.shape.proven.shape;
+  if (shape_a.kind == ShapeKind::box && shape_b.kind == ShapeKind::box &&
+      may_be_level(a.pose.rotation) &&
+      decide_level_boxes(shape_a, a.pose, shape_b, b.pose, task, outcome)) {
+    return true;
   }
   Pair pair(a.shape.support(), a.pose, b.shape.support(), b.pose);
   const bool decided =
@@ -221,6 +229,11 @@ bool Certified::gjk_distance_decides(Pair& pair, const PlacedPair& bodies, Task 
 bool Certified::on_plane(const PlacedPair& bodies, Task task, Outcome& outcome) {
   const PlacedBody &a = bodies.a, &b = bodies.b;
   outcome.support_calls = 1;
+  const Shape &shape_a = *a.shape.proven.shape, &shape_b = *b.shape.proven.shape;
+  if (shape_a.kind == ShapeKind::box && may_be_level(a.pose.rotation) &&
+      decide_level_plane(shape_a, a.pose, shape_b, b.pose, task, outcome)) {
+    return true;
+  }
   const double widest = bodies.tolerance * a.shape.size();
   Vec3d outward = Vec3d::Zero();
   const bool is_clear = write_bounds(

@@ -7,7 +7,11 @@
 //             round_pair_lanes).
 //          2. Solve the pairs that the lanes leave open, and all other batches, one by one.
 //          3. Half-space: one support point of the other body (kernels/minkowski/halfspace).
-//          4. Box and box: the greatest gap along 15 axes (kernels/sat/box_box).
+//          4. Box and box: the greatest gap along 15 axes (kernels/sat/box_box). Boxes that rest touch
+//             at a face: its plane and two points bound the signed distance
+//             (kernels/batch/box_pair_rest.inl). The distance starts at the features that face each
+//             other along the axis with the greatest gap, and is minimised along the edges of one box
+//             (kernels/batch/box_pair_distance.inl); GJK finds it where these leave it open.
 //          5. Sphere or capsule: reduce it to a point or segment with a radius, and find the
 //             closest points of the two segments, or of the point and the box; a point inside a box
 //             leaves through the nearest face.
@@ -21,16 +25,15 @@
 //          with a box take the nearest points of their cores and a plane between them, in double
 //          whatever the scalar (closed_form/plain_pair), and the verdict of boxes takes the fifteen
 //          axes in one vector each (closed_form/plain_boxes), their depth the same axes
-//          (closed_form/plain_box_depth). What these leave open goes to step 2.
+//          (closed_form/plain_box_depth), boxes that rest the face that they touch
+//          (closed_form/plain_box_rest). What these leave open goes to step 1 or 2.
 // Departs: if two cores meet, or nearly so, the normal is made orthogonal to the segments in whose
 //          interior they meet, so that the depth stays exact. A box keeps its matrix as given: the
 //          inverse takes a point into its frame.
-// Answers: sphere or capsule with sphere, capsule or box, any bounded shape with a half-space: all
-//          tasks. Box with box: intersect and penetration, since 15 axes give no distance. Alone, a
-//          pair beyond the margin is answered before a root is taken. Within rounding of contact the
-//          answer is `touching` with bounds on the signed
-//          distance, at most 2.9e-14 (double) or 1.6e-5 (float) of the pair's unit apart
-//          (kernels/minkowski/resolution).
+// Answers: sphere, capsule or box with one of these, any bounded shape with a half-space: all tasks.
+//          Alone, a pair beyond the margin is answered before a root is taken. Within rounding of
+//          contact the answer is `touching` with bounds on the signed distance, at most 2.9e-14
+//          (double) or 1.6e-5 (float) of the pair's unit apart (kernels/minkowski/resolution).
 // Fails:   reports not_converged if the rounding error is greater than that, and degenerate for a
 //          sphere near a box that its matrix skews, if its two bounds do not decide or differ by
 //          more than 1e-10 of the size.
@@ -48,10 +51,12 @@
 #include "algorithms/narrow_phase.h"
 #include "algorithms/narrow_phase/closed_form/core_gap.h"
 #include "algorithms/narrow_phase/closed_form/plain_box_depth.h"
+#include "algorithms/narrow_phase/closed_form/plain_box_rest.h"
 #include "algorithms/narrow_phase/closed_form/plain_boxes.h"
 #include "algorithms/narrow_phase/closed_form/plain_capsule_box.h"
 #include "algorithms/narrow_phase/closed_form/plain_pair.h"
 #include "algorithms/narrow_phase/closed_form/round_pair_lanes.h"
+#include "algorithms/signed_by_two.h"
 
 namespace touchstone {
 namespace {
@@ -78,6 +83,7 @@ class ClosedForm final : public NarrowPhase {
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     const BodyPairs& pairs = batch.pairs;
     const bool boxes = batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box;
+    if (boxes && task == Task::signed_distance) return signed_.solve(*this, batch, outcomes);
     const bool round = RoundPairLanes<Scalar>::takes(batch.kind_a, batch.kind_b);
     if (!boxes && !round) {
       for (std::size_t i = 0; i < batch.size(); ++i) solve_one(task, batch, i, outcomes[i]);
@@ -96,19 +102,26 @@ class ClosedForm final : public NarrowPhase {
     const Shape& b = shapes_[batch.pairs.shape_of[second]];
     const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
     if (batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box) {
-      const Answer answer = plain_boxes_(a, pose_a, b, pose_b);
-      if (answer == Answer::separated ||
-          (answer == Answer::overlapping && task == Task::intersect)) {
+      Answer answer = plain_boxes_.in_float(a, pose_a, b, pose_b);
+      if (answer == Answer::unknown) {
+        if (solve_plain_box_rest(task, a, pose_a, b, pose_b, outcome)) return;
+        answer = plain_boxes_.in_double(a, pose_a, b, pose_b);
+      }
+      if (answer != Answer::unknown && !asks_for_number(task, answer)) {
         outcome.answer = answer;
         outcome.status = Status::ok;
         outcome.iterations = 0;
         outcome.support_calls = -1;
         return;
       }
-      if (task == Task::penetration && solve_plain_box_depth(a, pose_a, b, pose_b, outcome)) return;
-    } else if (solve_plain_pair(task, a, pose_a, b, pose_b, outcome, margin_)) {
+      if (asks_depth(task) && answer != Answer::separated &&
+          solve_plain_box_depth(a, pose_a, b, pose_b, outcome)) {
+        return;
+      }
+      NarrowPhase::solve_alone(task, batch, i, outcome);
       return;
     }
+    if (solve_plain_pair(task, a, pose_a, b, pose_b, outcome, margin_)) return;
     solve_one(task, batch, i, outcome);
   }
 
@@ -119,6 +132,8 @@ class ClosedForm final : public NarrowPhase {
     const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
     if (batch.kind_b == ShapeKind::halfspace) {
       solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, outcome);
+    } else if (batch.kind_a == ShapeKind::box && asks_distance(task)) {
+      gjk_.solve(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, nullptr, outcome);
     } else if (batch.kind_a == ShapeKind::box) {
       solve_boxes({polytopes_[a], pose_a, polytopes_[b], pose_b}, task, outcome);
     } else if (batch.kind_a == ShapeKind::capsule && batch.kind_b == ShapeKind::box) {
@@ -214,13 +229,13 @@ class ClosedForm final : public NarrowPhase {
   PlainBoxes plain_boxes_ = plain_boxes();
   PlainCapsuleBox plain_capsule_box_ = plain_capsule_box();
   GjkQuery<Scalar> gjk_;
+  SignedByTwo signed_;
   std::vector<std::uint32_t> left_;  // scratch: the pairs that the lanes leave open
 };
 
-bool takes(ShapeKind a, ShapeKind b, Task task) {
+bool takes(ShapeKind a, ShapeKind b, Task) {
   if (b == ShapeKind::halfspace) return a != ShapeKind::halfspace;
-  if (a == ShapeKind::box && b == ShapeKind::box) return !asks_distance(task);
-  return a <= ShapeKind::capsule && b <= ShapeKind::box;
+  return b <= ShapeKind::box;
 }
 
 }  // namespace

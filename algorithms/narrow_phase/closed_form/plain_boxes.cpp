@@ -60,9 +60,9 @@ Answer apart_along_edges(const Shape& a, const Pose& pose_a, const Shape& b, con
 
 PlainBoxes plain_boxes() {
   switch (isa()) {
-    case Isa::avx512: return avx512::meet_plain_boxes;
-    case Isa::avx2: return avx2::meet_plain_boxes;
-    default: return baseline::meet_plain_boxes;
+    case Isa::avx512: return {avx512::meet_plain_boxes<float>, avx512::meet_plain_boxes<double>};
+    case Isa::avx2: return {avx2::meet_plain_boxes<float>, avx2::meet_plain_boxes<double>};
+    default: return {baseline::meet_plain_boxes<float>, baseline::meet_plain_boxes<double>};
   }
 }
 

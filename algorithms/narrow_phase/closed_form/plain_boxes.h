@@ -7,13 +7,16 @@
 
 namespace touchstone {
 
-// Says whether two boxes are apart or overlap, in double. Returns `unknown` if rounding leaves it
-// open: within 2e-13 of the pair's size of contact, nearly parallel edges that decide, a matrix that
-// is no rotation within 1e-14, or numbers that overflow.
-using PlainBoxes = Answer (*)(const Shape& a, const Pose& pose_a, const Shape& b,
+// Says whether two boxes are apart or overlap. Returns `unknown` if rounding leaves it open: within 2e-13
+// of the pair's size of contact, nearly parallel edges that decide, a matrix that is no rotation within
+// 1e-14, or numbers that overflow; in float within about 1e-4.
+struct PlainBoxes {
+  using Function = Answer (*)(const Shape& a, const Pose& pose_a, const Shape& b,
                               const Pose& pose_b);
+  Function in_float, in_double;
+};
 
-// Returns the function for the active level of vector instructions.
+// Returns the functions for the active level of vector instructions.
 PlainBoxes plain_boxes();
 
 }  // namespace touchstone

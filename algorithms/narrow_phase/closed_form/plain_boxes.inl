@@ -124,8 +124,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Answer meet_in(const Shape& shape_a, const P
   return meet ? Answer::overlapping : Answer::unknown;
 }
 
+template <class Scalar>
 TOUCHSTONE_TARGET Answer meet_plain_boxes(const Shape& a, const Pose& pose_a, const Shape& b,
                                           const Pose& pose_b) {
-  const Answer quick = meet_in<float>(a, pose_a, b, pose_b);
-  return quick == Answer::unknown ? meet_in<double>(a, pose_a, b, pose_b) : quick;
+  return meet_in<Scalar>(a, pose_a, b, pose_b);
 }

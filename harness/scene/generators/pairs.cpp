@@ -163,8 +163,14 @@ Vec3d world_support(const Scene& scene, const Body& body, const Vec3d& n) {
   return base::times(r, support_point(scene.shapes[body.shape], base::transposed_times(r, n)));
 }
 
-constexpr std::string_view placement_names[] = {"facing", "settled", "meeting"};
-enum class Placement : std::uint8_t { facing, settled, meeting };
+constexpr std::string_view placement_names[] = {"facing", "settled", "meeting", "stacked",
+                                                "turned", "tumbled", "wall",    "floor"};
+// From `resting` on in the order of Rest.
+enum class Placement : std::uint8_t { facing, settled, meeting, resting };
+
+bool can_rest(const Shape& shape, Rest rest) {
+  return shape.kind == ShapeKind::box || (shape.kind == ShapeKind::hull && rest != Rest::wall);
+}
 
 std::vector<double> read_gaps(GeneratorInput& input) {
   files::TomlTable& table = input.table;
@@ -198,6 +204,8 @@ std::vector<double> read_gaps(GeneratorInput& input) {
 // `meeting`: body 2 i + 1 moves straight towards the other from a random direction until the exact
 // distance or depth is the gap. The nearest features are those of bodies that meet by chance.
 //
+// `stacked`, `turned`, `tumbled`, `wall`, `floor`: the bodies rest on each other (place_resting).
+//
 // Pairs stand on a grid, clear of each other. With `sway` they move (set_swaying).
 Generated make_pairs(GeneratorInput& input) {
   if (input.count % 2 != 0) {
@@ -208,12 +216,24 @@ Generated make_pairs(GeneratorInput& input) {
                     input.count));
   }
   const std::vector<double> gaps = read_gaps(input);
+  const std::size_t chosen = input.table.choice("placement", placement_names, 0);
   const auto placement =
-      static_cast<Placement>(input.table.choice("placement", placement_names, 0));
+      static_cast<Placement>(std::min(chosen, static_cast<std::size_t>(Placement::resting)));
+  const auto rest = static_cast<Rest>(chosen - static_cast<std::size_t>(placement));
   const Sway sway = read_sway(input);
   Generated made;
   Scene& scene = made.scene;
   scene = make_bodies(input, {}, true, input.count);
+  if (placement == Placement::resting) {
+    for (const Shape& shape : scene.shapes) {
+      if (can_rest(shape, rest)) continue;
+      input.table.fail("shapes", rest == Rest::wall
+                                     ? "found others than boxes; expected only these in a wall"
+                                     : "found others than boxes and hulls; expected only these, "
+                                       "as the bodies are to rest");
+    }
+    snap_boxes(scene);
+  }
   double reach = 0;
   for (const Shape& shape : scene.shapes) {
     reach = std::max(reach, loose_reach(shape, Mat3d::Identity()));
@@ -226,19 +246,29 @@ Generated make_pairs(GeneratorInput& input) {
   base::Random places = input.random(GeneratorInput::place_stream);
   base::Random motions = input.random(GeneratorInput::velocity_stream);
   oracle::Oracle oracle;
+  std::uint32_t ground = 0;
+  if (placement == Placement::resting && rest == Rest::floor) {
+    Shape plane;
+    plane.kind = ShapeKind::halfspace;
+    ground = scene.add_shape(plane);
+  }
   for (std::uint32_t i = 0; i < pairs; ++i) {
     Body& a = scene.bodies[2 * i];
     Body& b = scene.bodies[2 * i + 1];
     const double gap = gaps[i % gaps.size()];
     a.pose.translation = cell * Vec3d(i % side, i / side % side, i / side / side);
-    Vec3d n;
+    Vec3d n = Vec3d::UnitZ();
+    if (placement == Placement::resting) {
+      if (rest == Rest::floor) b.shape = ground;
+      place_resting(rest, gap, places, scene, a, b);
+    }
     const auto face = [&] {
       n = places.on_sphere();
       b.pose.translation =
           a.pose.translation + (world_support(scene, a, n) + gap * n - world_support(scene, b, -n));
     };
-    face();
-    if (placement != Placement::facing) {
+    if (placement != Placement::resting) face();
+    if (placement == Placement::settled || placement == Placement::meeting) {
       const oracle::Solid solid_a(scene.shapes[a.shape]), solid_b(scene.shapes[b.shape]);
       constexpr int most_tries = 100;
       int tries = 1;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "algorithms/oracle/oracle.h"
+#include "harness/base/random.h"
+#include "harness/scene/scene.h"
 
 namespace touchstone::scene {
 
@@ -18,5 +20,22 @@ bool settle(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a,
 // place.
 bool meet(oracle::Oracle& oracle, const oracle::Solid& a, const Pose& at_a, const oracle::Solid& b,
           Pose& at_b, const Vec3d& way, double distance);
+
+// How the second body of a pair rests on the first, both of them boxes, or but in a wall hulls.
+enum class Rest : std::uint8_t {
+  stacked,  // on top of it
+  turned,   // on top of it, both turned about the vertical
+  tumbled,  // on top of it, the stack turned in space
+  wall,     // beside it, at a face, an edge or a corner
+  floor,    // the first stands on a half-space, which the second is
+};
+
+// Rounds the sides of the boxes to multiples of 1/32 m, so that faces meet to the last digit where
+// nothing is turned.
+void snap_boxes(Scene& scene);
+
+// Places the bodies at rest, `gap` metres apart along the first axis on which they touch. Hulls lie
+// on faces. Body a has a random rotation before.
+void place_resting(Rest rest, double gap, base::Random& random, Scene& scene, Body& a, Body& b);
 
 }  // namespace touchstone::scene

@@ -155,6 +155,53 @@ TEST(CertifiedContact, BallsOnFacesAndEdges) {
   EXPECT_LT(count.share_of_oracle(), 0.02);
 }
 
+// A turn by quarters: each row and each column has one number, 1 or -1.
+Mat3d quarter_turns(Random& random) {
+  Mat3d turn = Mat3d::Zero();
+  const int first = static_cast<int>(random() % 3);
+  const int step = random() % 2 == 0 ? 1 : 2;
+  for (int k = 0; k < 3; ++k) turn(k, (first + step * k) % 3) = random() % 2 == 0 ? 1 : -1;
+  return turn;
+}
+
+// Sizes and places are decimal, so that rounding decides which gaps are zero.
+TEST(CertifiedContact, BoxesThatStandLevel) {
+  Random random(12);
+  ContactCount upright, turned;
+  const auto tenths = [&] { return 0.1 * static_cast<double>(1 + random() % 20); };
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3d half_a(tenths(), tenths(), tenths()), half_b(tenths(), tenths(), tenths());
+    Pose pose_a, pose_b;
+    pose_a.translation = {tenths(), tenths(), i % 5 == 0 ? 1e3 * tenths() : tenths()};
+    const bool is_turned = i % 2 == 0;
+    if (is_turned) {
+      for (Pose* pose : {&pose_a, &pose_b}) {
+        const double angle = uniform(random, 0, 6);
+        pose->rotation << std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0,
+            0, 0, 1;
+      }
+    } else {
+      pose_a.rotation = quarter_turns(random);
+      pose_b.rotation = quarter_turns(random);
+    }
+    const Vec3d reach = pose_a.rotation.cwiseAbs() * half_a + pose_b.rotation.cwiseAbs() * half_b;
+    const std::size_t meeting = is_turned ? 4 : 1 + random() % 7;
+    for (int k = 0; k < 3; ++k) {
+      const bool meets = (meeting >> k & 1) != 0;
+      pose_b.translation[k] =
+          pose_a.translation[k] + (meets ? reach[k] : reach[k] * uniform(random, -1.05, 1.05));
+      if (meets && random() % 4 == 0) pose_b.translation[k] += nudge(random);
+    }
+    grade(box(half_a.x(), half_a.y(), half_a.z()), pose_a, box(half_b.x(), half_b.y(), half_b.z()),
+          pose_b, {Task::intersect, Task::distance, Task::penetration, Task::signed_distance},
+          is_turned ? turned : upright);
+  }
+  upright.expect_all(100);
+  turned.expect_all(100);
+  EXPECT_EQ(upright.of_oracle, 0);
+  EXPECT_LT(turned.share_of_oracle(), 0.02);
+}
+
 TEST(CertifiedContact, BodiesThatStandOnAPlane) {
   Random random(6);
   ContactCount count;

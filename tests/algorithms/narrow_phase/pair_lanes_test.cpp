@@ -109,6 +109,11 @@ std::set<std::size_t> boxes_left(Precision scalar, Task task, const Pairs& pairs
     return lanes.solve({pairs.first, pairs.second, pairs.shape_of, pairs.poses}, task, outcomes,
                        left.data());
   };
+  if (task == Task::signed_distance) {
+    std::set<std::size_t> either = boxes_left(scalar, Task::distance, pairs);
+    either.merge(boxes_left(scalar, Task::penetration, pairs));
+    return either;
+  }
   const std::size_t count =
       scalar == Precision::float32 ? ask(BoxPairLanes<float>()) : ask(BoxPairLanes<double>());
   return {left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count)};
@@ -214,7 +219,7 @@ void expect_few_left() {
     lanes.bind(pairs.shapes);
     std::vector<Outcome> outcomes(pairs.size());
     std::vector<std::uint32_t> left(pairs.size());
-    for (const Task task : {Task::intersect, Task::penetration}) {
+    for (const Task task : {Task::intersect, Task::penetration, Task::distance}) {
       EXPECT_LE(lanes.solve({pairs.first, pairs.second, pairs.shape_of, pairs.poses}, task,
                             outcomes, left.data()),
                 pairs.size() / 100)
@@ -229,6 +234,169 @@ void expect_few_left() {
 TEST(PairLanes, LeaveFewPairsOfBoxes) {
   expect_few_left<float>();
   expect_few_left<double>();
+}
+
+// How two boxes rest on each other.
+enum class Rest { stacked, turned, tumbled, wall, tumbled_wall, far };
+constexpr std::array all_rests{Rest::stacked, Rest::turned,       Rest::tumbled,
+                               Rest::wall,    Rest::tumbled_wall, Rest::far};
+
+// Sides are multiples of 1/64, so that faces meet to the last digit where nothing is turned.
+Shape grid_box(Random& random) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  for (double& half : shape.half_extents) half = (16 + static_cast<double>(random() % 48)) / 64;
+  return shape;
+}
+
+// Adds boxes that touch at a face, an edge or a corner, moved apart by `gap` along the first axis on
+// which they touch.
+void add_resting(Random& random, Rest rest, double gap, Pairs& pairs) {
+  const Shape a = grid_box(random), b = grid_box(random);
+  const bool wall = rest == Rest::wall || rest == Rest::tumbled_wall;
+  const auto touched = wall ? 1 + random() % 7 : 4;
+  Vec3d offset;
+  bool first = true;
+  for (int k = 0; k < 3; ++k) {
+    const bool touches = (touched >> k & 1) != 0;
+    offset[k] = (static_cast<double>(random() % 33) - 16) / 64;
+    if (!touches) continue;
+    offset[k] =
+        (random() % 2 == 0 ? 1 : -1) * (a.half_extents[k] + b.half_extents[k] + (first ? gap : 0));
+    first = false;
+  }
+  Pose pose_a, pose_b;
+  pose_a.translation = {static_cast<double>(random() % 640) / 64, 3, 0};
+  if (rest == Rest::far) pose_a.translation = 16 * random_direction(random);
+  pose_b.translation = pose_a.translation + offset;
+  if (rest == Rest::turned) {
+    pose_a.rotation = turn(uniform(random, 0, 6), Vec3d::UnitZ());
+    pose_b.rotation = turn(uniform(random, 0, 6), Vec3d::UnitZ());
+  }
+  if (rest == Rest::tumbled || rest == Rest::tumbled_wall) {
+    const Mat3d common = random_rotation(random);
+    for (Pose* pose : {&pose_a, &pose_b}) {
+      pose->rotation = common;
+      pose->translation = common * pose->translation;
+    }
+  }
+  pairs.add(a, pose_a, b, pose_b);
+}
+
+std::vector<Outcome> solve_each(const NarrowPhaseEntry& entry, Precision scalar, Task task,
+                                const Pairs& pairs) {
+  const auto algorithm = entry.make(settings_of(scalar));
+  algorithm->bind(pairs.shapes);
+  std::vector<Outcome> outcomes(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    algorithm->solve_alone(task, pairs.batch(0, pairs.size()), i, outcomes[i]);
+  }
+  return outcomes;
+}
+
+// Boxes at contact, and beside it by some units of the last place: no answer is wrong, bounds hold
+// and are narrow, and one by one as in lanes.
+TEST(PairLanes, JudgeBoxesThatRest) {
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("closed-form");
+  Random random(7);
+  oracle::Oracle oracle;
+  for (const Rest rest : all_rests) {
+    for (const Precision scalar : scalars) {
+      const double epsilon = scalar == Precision::float32 ? 0x1p-23 : 0x1p-52;
+      Pairs pairs;
+      std::vector<oracle::Measure> truths;
+      for (std::size_t k = 0; k < drawn(240, 60); ++k) {
+        const double off = k % 3 == 0 ? 0 : epsilon * uniform(random, -64, 64);
+        add_resting(random, rest, off, pairs);
+        const oracle::Solid a(pairs.shapes[2 * k]), b(pairs.shapes[2 * k + 1]);
+        truths.push_back(oracle.measure({a, pairs.poses[2 * k]}, {b, pairs.poses[2 * k + 1]}));
+      }
+      for (const Task task : entry.tasks) {
+        SCOPED_TRACE(std::to_string(static_cast<int>(rest)) + " " + std::string(to_string(scalar)) +
+                     " " + std::string(to_string(task)));
+        if (task != Task::signed_distance) {
+          EXPECT_LE(boxes_left(scalar, task, pairs).size(), pairs.size() / 4);
+        }
+        for (const bool alone : {false, true}) {
+          const std::vector<Outcome> outcomes =
+              alone ? solve_each(entry, scalar, task, pairs)
+                    : solve(entry, scalar, task, pairs, pairs.size());
+          std::size_t touching = 0, decided = 0;
+          for (std::size_t i = 0; i < pairs.size(); ++i) {
+            const Outcome& o = outcomes[i];
+            const oracle::Measure& truth = truths[i];
+            const double size = 2 * std::max(pairs.shapes[2 * i].half_extents.maxCoeff(),
+                                             pairs.shapes[2 * i + 1].half_extents.maxCoeff());
+            ASSERT_EQ(o.status, Status::ok) << i;
+            const bool is_touching = o.answer == Answer::touching;
+            ++(is_touching ? touching : decided);
+            ASSERT_TRUE(is_touching || truth.answer == Answer::touching ||
+                        o.answer == truth.answer);
+            if (!is_touching && !asks_for_number(task, o.answer)) continue;
+            ASSERT_LE(o.lower, truth.upper) << i;
+            ASSERT_GE(o.upper, truth.lower) << i;
+            ASSERT_LE(o.upper - o.lower, 260 * epsilon * size) << i;
+            if (task == Task::intersect) continue;
+            ASSERT_LE(o.lower, o.distance);
+            ASSERT_GE(o.upper, o.distance);
+            ASSERT_NEAR(o.normal.norm(), 1, 16 * epsilon);
+            ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(),
+                      200 * epsilon * size + 0x1p-50 * pairs.poses[2 * i].translation.norm());
+          }
+          EXPECT_GT(touching, pairs.size() / 5);
+          EXPECT_GT(decided, pairs.size() / 10);
+        }
+      }
+    }
+  }
+}
+
+// Hulls that rest: GJK ends at a face of the difference, with numbers, and no answer is wrong.
+TEST(RestingHulls, EndAtAFace) {
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("gjk");
+  Random random(8);
+  oracle::Oracle oracle;
+  for (const Rest rest : all_rests) {
+    Pairs pairs;
+    std::vector<oracle::Measure> truths;
+    for (std::size_t k = 0; k < drawn(120, 30); ++k) {
+      add_resting(random, rest, k % 2 == 0 ? 0 : 0x1p-52 * uniform(random, -64, 64), pairs);
+      Shape& block = pairs.shapes.back();
+      std::vector<Vec3d> corners;
+      for (int c = 0; c < 8; ++c) {
+        corners.push_back(block.half_extents.cwiseProduct(
+            Vec3d((c & 1) != 0 ? 1 : -1, (c & 2) != 0 ? 1 : -1, (c & 4) != 0 ? 1 : -1)));
+      }
+      block = bare_hull(std::move(corners), 3);
+      const oracle::Solid a(pairs.shapes[2 * k]), b(block);
+      truths.push_back(oracle.measure({a, pairs.poses[2 * k]}, {b, pairs.poses[2 * k + 1]}));
+    }
+    for (const Task task : all_tasks) {
+      const std::vector<Outcome> outcomes =
+          solve(entry, Precision::float64, task, pairs, pairs.size());
+      std::size_t touching = 0, by_epa = 0;
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const Outcome& o = outcomes[i];
+        const oracle::Measure& truth = truths[i];
+        SCOPED_TRACE(std::to_string(static_cast<int>(rest)) + " " + std::string(to_string(task)) +
+                     " pair " + std::to_string(i));
+        const bool is_touching = o.answer == Answer::touching;
+        touching += is_touching ? 1u : 0u;
+        by_epa += is_touching && o.iterations > 12 ? 1u : 0u;
+        ASSERT_TRUE(is_touching || truth.answer == Answer::touching || o.answer == truth.answer);
+        if (!is_touching && !asks_for_number(task, o.answer)) continue;
+        ASSERT_LE(o.lower, truth.upper);
+        ASSERT_GE(o.upper, truth.lower);
+        ASSERT_LE(o.upper - o.lower, 1.2e-13);
+        if (task == Task::intersect) continue;
+        ASSERT_NEAR(o.normal.norm(), 1, 1e-14);
+        ASSERT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(), 1e-13);
+      }
+      EXPECT_GT(touching, pairs.size() / 4);
+      EXPECT_LT(touching, pairs.size());
+      EXPECT_LT(by_epa, touching / 4);
+    }
+  }
 }
 
 }  // namespace

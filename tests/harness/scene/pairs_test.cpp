@@ -74,6 +74,31 @@ TEST(Pairs, SettledOnesAreAsFarApartOrAsDeepAsAsked) {
   }
 }
 
+TEST(Pairs, BodiesThatRestAreAtContact) {
+  for (const std::string placement : {"stacked", "turned", "tumbled", "wall", "floor"}) {
+    for (const std::string shapes : {"\"box\"", "\"box\", {type = \"hull\", points = 8}"}) {
+      if (placement == "wall" && shapes.size() > 6) continue;
+      const std::string content =
+          "count = 80\nshapes = [" + shapes + "]\nplacement = \"" + placement + "\"\n";
+      SCOPED_TRACE(content);
+      const scene::Scene scene = load_pairs(content, {.gap = 0}),
+                         lifted = load_pairs(content, {.gap = 0.25});
+      ASSERT_EQ(scene.pairs.size(), 40u);
+      int exact = 0;
+      for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        const oracle::Enclosure distance = exact_distance(scene, scene.pairs[i]);
+        EXPECT_NEAR(distance.lower, 0, 1e-13);
+        exact += distance.lower == 0 && distance.upper == 0;
+        EXPECT_NEAR(exact_distance(lifted, lifted.pairs[i]).lower, 0.25, 1e-12);
+      }
+      const bool level = placement == "stacked" || placement == "wall";
+      EXPECT_EQ(exact, level && shapes.size() < 6 ? 40 : exact);
+    }
+  }
+  EXPECT_THAT(input_fault([&] { load_pairs("shapes = [\"cone\"]\nplacement = \"wall\"\n"); }),
+              testing::HasSubstr("expected only these"));
+}
+
 TEST(Pairs, AGapFromOutsideReplacesThoseOfTheFileAndIsInTheName) {
   const std::string content = "count = 20\ngaps = [0.5, 20]\n";
   const scene::Scene near = load_pairs(content, {.gap = 0.25}),

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "algorithms/oracle/oracle.h"
 #include "algorithms/registry.h"
 #include "tests/algorithms/narrow_phase/bodies.h"
 
@@ -104,11 +105,58 @@ TEST(ClosedForm, SphereAndBox) {
   }
 }
 
+// On the ground, on slopes, near and far from the plane's origin, within rounding of contact.
+TEST(ClosedForm, BoxOnAHalfspace) {
+  Random random(4);
+  oracle::Oracle oracle;
+  Shape ground;
+  ground.kind = ShapeKind::halfspace;
+  int touching = 0, decided = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Shape block =
+        box(uniform(random, 0.1, 1), uniform(random, 0.1, 1), uniform(random, 0.1, 1));
+    const bool slope = k % 4 == 3;
+    ground.normal = slope ? random_direction(random) : Vec3d::UnitZ();
+    ground.offset = k % 3 == 0 ? uniform(random, -1, 1) : 0;
+    const Pose plane{k % 2 == 0 ? Mat3d::Identity() : random_rotation(random),
+                     k % 5 == 0 ? Vec3d(100 * random_direction(random)) : Vec3d::Zero()};
+    Pose pose{k % 7 == 0 ? turn(uniform(random, 0, 6), Vec3d::UnitZ()) : random_rotation(random),
+              10 * random_direction(random)};
+    if (k % 11 == 0) pose.rotation *= 1 + uniform(random, -1e-3, 1e-3);
+    const Vec3d up = (plane.rotation * ground.normal).normalized();
+    const oracle::Solid a(block), b(ground);
+    const double wanted = k % 6 == 0 ? uniform(random, -1, 1) : 1e-14 * uniform(random, -1, 1);
+    for (int step = 0; step < 3; ++step) {
+      pose.translation += (wanted - oracle.measure({a, pose}, {b, plane}).middle()) * up;
+    }
+    const oracle::Measure truth = oracle.measure({a, pose}, {b, plane});
+    for (const Task task : all_tasks) {
+      const Outcome o = closed_form(Precision::float64, task, block, pose, ground, plane);
+      ASSERT_EQ(o.status, Status::ok) << k;
+      ++(o.answer == Answer::touching ? touching : decided);
+      if (o.answer != Answer::touching && truth.answer != Answer::touching) {
+        ASSERT_EQ(o.answer, truth.answer) << k;
+      }
+      if (o.answer != Answer::touching && !asks_for_number(task, o.answer)) continue;
+      ASSERT_LE(o.lower, truth.upper) << k;
+      ASSERT_GE(o.upper, truth.lower) << k;
+      ASSERT_LE(o.upper - o.lower, o.answer == Answer::touching ? 6e-14 : 2e-12) << k;
+      if (task == Task::intersect) continue;
+      EXPECT_NEAR(o.distance, truth.middle(), 1e-13);
+      EXPECT_NEAR(o.normal.dot(up), -1, 1e-14);
+      EXPECT_LE((o.witness_b - o.witness_a - o.distance * o.normal).norm(), 1e-13);
+    }
+  }
+  EXPECT_GT(touching, 1000);
+  EXPECT_GT(decided, 1000);
+}
+
 TEST(ClosedForm, SaysExactlyWhatItTakes) {
   const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("closed-form");
   const auto takes = [&](ShapeKind a, ShapeKind b, Task task) { return offers(entry, a, b, task); };
   EXPECT_TRUE(takes(ShapeKind::box, ShapeKind::box, Task::penetration));
-  EXPECT_FALSE(takes(ShapeKind::box, ShapeKind::box, Task::distance));
+  EXPECT_TRUE(takes(ShapeKind::box, ShapeKind::box, Task::distance));
+  EXPECT_FALSE(takes(ShapeKind::box, ShapeKind::cylinder, Task::distance));
   EXPECT_TRUE(takes(ShapeKind::capsule, ShapeKind::box, Task::distance));
   EXPECT_TRUE(takes(ShapeKind::sphere, ShapeKind::box, Task::distance));
   EXPECT_TRUE(takes(ShapeKind::cone, ShapeKind::halfspace, Task::distance));
