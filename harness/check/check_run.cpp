@@ -115,7 +115,8 @@ record::ResultFolderPlan check_folder(const CheckRequest& request) {
   record::Facts notes = {{"check", request.resume ? "resumed" : "whole"}};
   for (auto& fact : record::machine_facts()) notes.push_back(std::move(fact));
   // To resume, these must be equal: all of the request but `out`, `seconds`, `count` and `workers`.
-  record::Facts identity = {{"seed", std::to_string(request.seed)},
+  record::Facts identity = {{"mode", std::to_string(static_cast<int>(request.mode))},
+                            {"seed", std::to_string(request.seed)},
                             {"cases", std::to_string(request.cases)},
                             {"contestants", fmt::format("{}", fmt::join(contestants, ", "))},
                             {"scalars", fmt::format("{}", fmt::join(scalars, " "))},

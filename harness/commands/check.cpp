@@ -96,7 +96,8 @@ int write_questions(const CheckOptions& options, check::CheckMode mode) {
     progress.start(fmt::format("questions of job {}", job));
     report.do_job(static_cast<std::size_t>(job));
   }
-  fmt::print("{} questions in {}\n", writer.save(options.written), options.written);
+  fmt::print("{} lines of questions and meshes in {}\n", writer.save(options.written),
+             options.written);
   return exit_done;
 }
 

@@ -24,6 +24,7 @@
 #include "harness/kinds/selection.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
+#include "harness/record/machine.h"
 #include "harness/scene/generators/generators.h"
 #include "harness/stats/summary.h"
 
@@ -194,6 +195,7 @@ std::string command_to_go_on() {
   std::string word, text = "touchstone";
   std::getline(stream, word, '\0');  // the program
   while (std::getline(stream, word, '\0')) {
+    if (word.starts_with(record::of_build_option)) continue;
     if (word != "--overwrite" && word != "--resume") text += " " + base::shell_word(word);
   }
   return text + " --resume";
@@ -249,6 +251,7 @@ std::optional<int> run_other_file(const RunOptions& options, const WholeRun& who
   if (options.tables) of_file.others.emplace_back("--tables");
   if (options.quick) of_file.others.emplace_back("--quick");
   if (!options.peers.empty()) of_file.others.emplace_back("--peer");
+  if (options.depth_error != stats::usual_depth_error) of_file.others.emplace_back("--depth-error");
   return whole.run_file(of_file);
 }
 
@@ -367,6 +370,11 @@ void add_run_options(Arguments command, const WholeRun* whole) {
                   "Pairs of a narrow phase's call; 1: one pair at a time")
           .within(1, measure::usual_batch)
           .show_default());
+  Option plan = command.option("--plan");
+  for (const char* name : {"--out", "--resume", "--overwrite", "--strict", "--noisy", "--tables",
+                           "--report", "--depth-error", "--quick", "--dry-run", "--scene"}) {
+    plan.excludes(command.option(name));
+  }
   command.job([options, threads, whole] {
     options->threads_given = threads.given();
     return run(*options, whole);

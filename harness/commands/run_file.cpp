@@ -120,7 +120,8 @@ std::optional<int> run_file(const RunFileOptions& options) {
   const bool is_of_cells = cells::has_cells(options.file);
   if (!is_of_cells && check::has_check(options.file)) return run_check_file(options);
   if (!options.threads.empty()) {
-    throw base::InputError("--threads: expected only with a shard, or a table [check] alone");
+    throw base::InputError(
+        "--threads was given; expected it with a shard, or a table [check] alone");
   }
   return is_of_cells ? run_cells(options) : run_trades(options);
 }

@@ -29,7 +29,9 @@ std::string with_version(std::string text, const std::string& version) {
 
 // The adapter that is named, and what stands behind '@'; no adapter if it is a command.
 std::pair<std::optional<Adapter>, std::string> adapter_of(const std::string& named) {
-  const std::size_t at = named.find('@');
+  // A folder may have '@' in its path.
+  std::size_t at = named.rfind('@');
+  if (at != std::string::npos && named.find('/', at) != std::string::npos) at = std::string::npos;
   const std::string name = named.substr(0, at);
   const std::string version = at == std::string::npos ? "" : named.substr(at + 1);
   if (fs::exists(fs::path(name) / "peer.toml")) {
@@ -69,6 +71,9 @@ Adapter read_adapter(const fs::path& folder) {
          .is_installed = fs::exists(adapter.folder / with_version(installed, version)),
          .command = with_version(command, version)});
   }
+  if (adapter.versions.empty()) {
+    table.fail("versions", "found none; expected at least one version");
+  }
   table.finish();
   return adapter;
 }
@@ -89,7 +94,7 @@ std::vector<std::string> named_versions(const std::string& named) {
   if (!adapter || version != "all") return {named};
   std::vector<std::string> names;
   for (const AdapterVersion& one : adapter->versions) {
-    if (one.is_installed) names.push_back(named.substr(0, named.find('@') + 1) + one.version);
+    if (one.is_installed) names.push_back(named.substr(0, named.rfind('@') + 1) + one.version);
   }
   if (names.empty()) throw_not_installed(named, adapter->versions.back());
   return names;

@@ -36,15 +36,16 @@ class ProgramLink final : public Link {
 
   std::vector<std::string> answers(std::string_view before,
                                    std::span<const Question> questions) override {
-    if (owner_ != getpid()) {
+    const bool is_new = owner_ != getpid();
+    if (is_new) {
       static_cast<void>(process_.release());  // it is the parent's
       process_ = std::make_unique<PeerProcess>(program_);
       owner_ = getpid();
-      process_->exchange(greeting(), 1);
     }
     std::string text(before);
     for (const Question& question : questions) text += question.line;
     try {
+      if (is_new) process_->exchange(greeting(), 1);
       return process_->exchange(text, questions.size());
     } catch (...) {
       owner_ = -1;  // the next question gets a new program
@@ -177,6 +178,12 @@ std::string name_of(const files::JsonNode& hello) {
 }
 
 void expect_new(const files::JsonNode& hello, const std::string& name) {
+  constexpr std::array<std::string_view, 6> words = {"all",       "ours",   "peers",
+                                                     "libraries", "oracle", "none"};
+  if (std::ranges::find(words, name) != words.end()) {
+    hello.fail(
+        fmt::format("found the name '{}', which means several algorithms; expected another", name));
+  }
   registry::for_each_kind([&]<class Entry>() {
     if (registry::find<Entry>(name) == nullptr) return;
     hello.fail(

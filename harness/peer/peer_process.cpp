@@ -64,7 +64,8 @@ struct Pipe {
 // program's own.
 std::string for_shell(const std::string& command) {
   const bool is_one = command.find_first_of(";&|<>(){}`\n") == std::string::npos &&
-                      command.substr(0, command.find(' ')).find('=') == std::string::npos;
+                      command.substr(0, command.find(' ')).find('=') == std::string::npos &&
+                      !command.starts_with(' ') && !command.starts_with("exec ");
   return is_one ? "exec " + command : command;
 }
 
@@ -72,7 +73,8 @@ std::string for_shell(const std::string& command) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != watcher) _exit(EXIT_FAILURE);
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGCHLD})
+    std::signal(signal, SIG_DFL);
   // A limit of addresses is not one of memory to programs that reserve more than they use, as WebAssembly does. The
   // watcher counts what is used.
   rlimit addresses{};
@@ -149,6 +151,10 @@ Report watch(pid_t program, int life, std::size_t memory) {
       return report;
     }
     const std::vector<pid_t> processes = all_below(getpid());
+    for (const pid_t child : children_of(getpid())) {
+      if (child != program)
+        waitpid(child, nullptr, WNOHANG);  // an orphan that ended is no process any more
+    }
     std::size_t used = 0;
     for (const pid_t process : processes) used += memory_of(process);
     if (used > memory) report.ended = Ended::memory;
@@ -159,7 +165,7 @@ Report watch(pid_t program, int life, std::size_t memory) {
 
 [[noreturn]] void run_watcher(const Program& program, int input, int output, int life, int answer,
                               std::size_t memory) {
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_IGN);
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_IGN);
   std::signal(SIGCHLD, [](int) {});  // it ends the wait of poll()
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const pid_t watcher = getpid();

@@ -61,7 +61,7 @@ std::optional<FaceContact<Scalar>> find_face_contact(SupportPair<Scalar>& pair,
                                                      const Simplex<Scalar>& simplex, Scalar near,
                                                      Scalar beyond) {
   const auto face = nearest_face(simplex, Vec3<Scalar>(-pair.centre_b()));
-  if (!face || face->distance > near) return {};
+  if (!face || !(face->distance <= near)) return {};
   FaceContact<Scalar> contact;
   contact.normal = face->normal;
   Simplex<Scalar>& triangle = contact.triangle;
@@ -83,9 +83,9 @@ std::optional<FaceContact<Scalar>> find_face_contact(SupportPair<Scalar>& pair,
   }
   // Beside the triangle, or where it is too narrow for that, a more careful search decides.
   if (!(least > 0 && contact.upper <= near)) contact.upper = reduce_to_nearest(triangle).distance;
-  if (contact.upper > near) return {};
+  if (!(contact.upper <= near)) return {};
   const Scalar height = face->normal.dot(pair.support(face->normal).difference);
-  if (height > beyond) return {};
+  if (!(height <= beyond)) return {};
   contact.lower = std::min(-height, Scalar{0});
   return contact;
 }

@@ -63,7 +63,7 @@ void answer(Task task, double distance, double rounding, double widest, const Ve
 }
 
 // Solves a box over a half-space in double. Returns false if the bounds would be further apart than
-// those in long double, or if the matrix of b is far from a rotation.
+// 32 roundings of the lengths, up to 1.4 times those in long double, or if the matrix of b is far from a rotation.
 //
 // `normal` is the matrix of b's cofactors times n, as it is; `size` sums the absolute values of all
 // products of which it and the heights consist. No height is off by more than 14 roundings of that.
@@ -113,7 +113,8 @@ bool solve_plain_box(const SupportShape<double>& a, const Pose& pose_a,
   // No number of the matrix of a is above one, but for rounding.
   size += extents * (most[0] + most[1] + most[2]);
   const double lengths = offsets + extents;
-  // Half of the sum of these lengths is at most the unit that the long doubles would have.
+  // The sum of these lengths is below 2.8 units of the long doubles, so that the bounds are within 88 of the 256
+  // roundings of the resolution.
   const double error = rounding * size + scaling * std::abs(height);
   if (!(greatest < 1.001 && lengths > least_length && error <= widest_part / 2 * lengths))
     return false;

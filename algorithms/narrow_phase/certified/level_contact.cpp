@@ -113,8 +113,8 @@ struct UprightPair {
   Vec3d half_a, half_b, gaps;
 };
 
-// Writes all numbers; returns false if a distance may have lost digits. `best` has the greatest gap.
-bool write_numbers(const UprightPair& pair, const Pose& pose_a, const Pose& pose_b, const Gap& best,
+// Writes all numbers. `best` has the greatest gap.
+void write_numbers(const UprightPair& pair, const Pose& pose_a, const Pose& pose_b, const Gap& best,
                    Outcome& outcome) {
   Vec3d along = Vec3d::Zero();  // the gaps that count, from a to b
   int count = 0;
@@ -135,18 +135,13 @@ bool write_numbers(const UprightPair& pair, const Pose& pose_a, const Pose& pose
     }
   }
   double distance = best.value;
-  if (count > 1 && best.value > 0) {
-    // Products of these neither underflow nor overflow.
-    if (!(best.value > 1e-100 && best.value < 1e100)) return false;
-    distance = along.norm();
-  }
+  if (count > 1 && best.value > 0) distance = along.norm();
   outcome.distance = distance;
   // Each gap is off by a unit in its last place, and no more than six roundings follow.
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(distance);
   outcome.lower = distance - rounding;
   outcome.upper = distance + rounding;
   outcome.normal = best.value > 0 ? Vec3d(along / distance) : along;
-  return true;
 }
 
 bool in_range(const Shape& box, const Pose& pose) {
@@ -189,7 +184,10 @@ bool decide_level_boxes(const Shape& a, const Pose& pose_a, const Shape& b, cons
   if (answer == Answer::unknown) return false;
   const bool asked = asks_for_number(task, answer);
   if (upright) {
-    if (asked && !write_numbers(pair, pose_a, pose_b, best, outcome)) return false;
+    // Squares of gaps in this range neither underflow nor overflow.
+    const bool several = (pair.gaps.array() > 0).count() > 1;
+    if (asked && several && !(best.value > 1e-100 && best.value < 1e100)) return false;
+    if (asked) write_numbers(pair, pose_a, pose_b, best, outcome);
     write(answer, outcome);
     return true;
   }

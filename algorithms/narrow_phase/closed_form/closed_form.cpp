@@ -1,4 +1,4 @@
-// Closed forms: pairs of simple shapes that need no iteration.
+// Closed forms: pairs of simple shapes that need no iteration, or a few rounds.
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, sections 5.1.3 (point and box), 5.1.9
 //          (segments), 5.2.3 (half-space); Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996
 //          (boxes).
@@ -37,7 +37,8 @@
 // Fails:   reports not_converged if the rounding error is greater than that, and degenerate for a
 //          sphere near a box that its matrix skews, if its two bounds do not decide or differ by
 //          more than 1e-10 of the size.
-// Cost:    O(1); one support call for a hull over a half-space.
+// Cost:    O(1), at most eight rounds for boxes that rest or are apart; GJK's, and EPA's for a capsule, where
+//          that leaves a pair open; one support call for a hull over a half-space.
 #include <algorithm>
 #include <limits>
 

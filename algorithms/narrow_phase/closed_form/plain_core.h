@@ -1,4 +1,4 @@
-// Parts of plain_pair.cpp, plain_capsule_box.cpp and plain_box_depth.cpp: vectors, the nearest points of two cores, and the proof of
+// Parts of plain_pair.cpp, plain_capsule_box.cpp, plain_box_depth.cpp and plain_box_rest.cpp: vectors, the nearest points of two cores, and the proof of
 // an answer by a plane. The vector w between the points bounds the distance of the cores from above,
 // whatever its rounding error, since both points are in the cores. The plane across w bounds it from
 // below: the distance is at least (w . c - e_a(w) - e_b(w)) / |w|, where c joins the centres and e(w)

@@ -89,6 +89,15 @@ TEST_F(Refusals, ThreadsOfFilesThatHaveTheirOwn) {
   }
 }
 
+TEST_F(Refusals, OptionsOfCampaignsWithOtherWork) {
+  const auto file = folder.write("work.toml", "[cells]\nof = \"rays\"\n");
+  for (const std::string option : {"--quick", "--dry-run", "--strict", "--depth-error 0.1"}) {
+    refuse("run " + file.string() + " " + option + " --out " + path("out"),
+           "is no campaign of scenes, and " + option.substr(0, option.find(' ')) + " was given");
+    refuse("run --plan " + path("plan") + " --shard 0 " + option, " excludes ");
+  }
+}
+
 TEST_F(Refusals, OutputsThatWouldBeOneFile) {
   folder.write("pairs.csv", "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n0,0,0,0,0,1,1,1\n");
   const std::string query = "query " + path("mesh.jsonl") + " --narrow fused --task contacts ";
