@@ -134,10 +134,10 @@ campaign::Campaign campaign_of(const RunOptions& options) {
 
 // Leaves each group a small part of its time, for a first look. It has a folder of its own.
 void make_quick(campaign::Campaign& campaign) {
-  constexpr double quick_seconds = 1;  // for the samples of a block
-  constexpr int quick_squares = 8;     // an interval needs six, and some are disturbed
+  constexpr double quick_seconds = 0.6;  // for the samples of a block
+  constexpr int quick_squares = 8;       // an interval needs six, and some are disturbed
   constexpr int quick_frames = 4;
-  constexpr std::int64_t quick_bodies = 3000;  // of a generator
+  constexpr std::int64_t quick_bodies = 2000;  // of a generator
   campaign.name += "-quick";
   for (campaign::CampaignGroup& group : campaign.groups) {
     group.seconds = std::min(group.seconds, quick_seconds);
@@ -314,7 +314,7 @@ void add_run_options(Arguments command, const WholeRun* whole) {
   add_depth_error(command, options->depth_error);
   add_shard(command, options->plan, options->shard).excludes(campaign);
   command.flag("--quick", options->quick,
-               "Take few samples, of at most 4 frames and 3,000 generated bodies where the "
+               "Take few samples, of at most 4 frames and 2,000 generated bodies where the "
                "campaign names more, for a first look");
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
   add_peer(command, options->peers).excludes(command.option("--plan"));
