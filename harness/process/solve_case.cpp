@@ -6,7 +6,6 @@
 #include <span>
 #include <utility>
 
-
 namespace touchstone::process {
 
 BoundCase::BoundCase(const NarrowPhaseEntry& entry, const NarrowPhaseSettings& settings,

@@ -17,9 +17,9 @@ struct TimeRow {
   SetKey key;
   std::string label;
   std::optional<record::RowOrigin> origin;  // empty: not known
-  bool per_query = false;  // true if the times are those of a query, not of a frame
-  MedianInterval seconds;  // an estimate over the squares
-  double minimum = 0;      // the minimum of all samples, noisy ones too, because noise only adds
+  bool per_query = false;    // true if the times are those of a query, not of a frame
+  MedianInterval seconds;    // an estimate over the squares
+  double minimum = 0;        // the minimum of all samples, noisy ones too, because noise only adds
   double worst_frame = nan;  // see samples.h
   std::array<double, phase_count> parts;  // medians of the phases, NaN for absent ones
   std::int64_t samples = 0, noisy = 0, outliers = 0;
@@ -27,8 +27,8 @@ struct TimeRow {
   std::string failure;  // crashed, timed_out, unsupported, wrong
   // Counts of narrow phases, over all verified frames.
   std::int64_t queries = 0, unknown = 0;  // unknown: failed, or without an answer
-  double worst_error = nan;  // see AgreementRow
-  bool depth_is_bound = false;  // its depths are upper bounds by design
+  double worst_error = nan;               // see AgreementRow
+  bool depth_is_bound = false;            // its depths are upper bounds by design
 };
 
 // A ratio of a contestant's time to the baseline's. The twin's row is the canary: its true ratio is
@@ -134,9 +134,9 @@ struct BroadBestRow {
 // errors. A ratio is NaN where there is no such contestant, or too few squares were left undisturbed.
 struct NarrowBestRow {
   struct Best {
-    std::string label;                                          // empty if there is none
-    double seconds = nan;  // time for a query
-    std::int64_t queries = 0, wrong = 0, failed = 0;            // see AgreementRow
+    std::string label;                                // empty if there is none
+    double seconds = nan;                             // time for a query
+    std::int64_t queries = 0, wrong = 0, failed = 0;  // see AgreementRow
     double worst_error = nan;
     MedianInterval ratio = {nan, nan, nan, 0};  // ratio of its time to that of ours
   };

@@ -11,8 +11,8 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/clock.h"
-#include "harness/kinds/pair/regimes/regimes.h"
 #include "harness/files/cases.h"
+#include "harness/kinds/pair/regimes/regimes.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
 

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "algorithms/registry.h"
-#include "harness/kinds/pair/regimes/regimes.h"
 #include "harness/grade/manifold/touching_area.h"
 #include "harness/kinds/manifold/manifold_kind.h"
+#include "harness/kinds/pair/regimes/regimes.h"
 #include "harness/process/solve_case.h"
 #include "tests/algorithms/shapes.h"
 
