@@ -256,6 +256,9 @@ void add_check(Arguments command) {
   }
   command.text("--certificates", options->certificates, "Only verify the proofs in this file");
   add_older_spellings(command, options->selection);
+  for (const kinds::Kind* kind : kinds::checked_kinds()) {
+    written.excludes(command.option("--" + std::string(kind->old_name())));
+  }
   command.exclude_others("--certificates");
   axes.excludes(count);
   for (Option option : {axes, count, cases, command.option("--regimes"), command.option("--groups"),

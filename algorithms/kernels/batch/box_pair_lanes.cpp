@@ -33,22 +33,15 @@ using simd::Quad;
 // one. `fine` is the sum of all these, for a gap as a part of the axis' length. Edges whose axis
 // has a square below `parallel` count as parallel: they add no facet that is wide enough to matter.
 //
-// Where faces meet, `rest` bounds the rounding of a gap along a face's normal, whose extents are
-// calculated from the matrices as they are, and that of the distance of two points: 8 u of the size
-// for fewer than nine operations in a row, each with a result that is no greater; in float 4 u more
-// for the numbers that were rounded. Boxes touch if their gap is within `at_contact` and their bounds
-// are no further apart than `widest`, both parts of the size. Points that `room` does not part are
-// next to each other. A distance is off by no more than `distance`, since a root and a division
+// RestError has those of boxes that rest. A distance is off by no more than `distance`, since a root and a division
 // follow. An edge's square across what it is near to is above `parallel_edge`, or it is parallel to it.
 template <class Scalar>
-struct GapError {
-  static constexpr bool is_float = std::is_same_v<Scalar, float>;
-  static constexpr Scalar u = unit_roundoff<Scalar>;
+struct GapError : RestError<Scalar> {
+  using RestError<Scalar>::is_float;
+  using RestError<Scalar>::u;
   static constexpr Scalar coarse = (is_float ? 64 : 128) * u;
   static constexpr Scalar fine = (is_float ? 160 : 320) * u;
   static constexpr Scalar parallel = 16 * u * u;
-  static constexpr Scalar rest = (is_float ? 13 : 9) * u, at_contact = 8 * u;
-  static constexpr Scalar room = 4 * u, widest = (is_float ? 48 : 40) * u;
   static constexpr Scalar distance = (is_float ? 20 : 16) * u;
   static constexpr Scalar parallel_edge = 512 * u * (512 * u);
 };

@@ -12,7 +12,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "algorithms/core/body_pairs.h"
@@ -20,6 +22,20 @@
 #include "algorithms/core/shape.h"
 
 namespace touchstone {
+
+// What rounding may do where faces meet, as parts of a pair's size: the sum of the half extents and of the offset's
+// coordinates. `rest` bounds the rounding of a gap along a face's normal, whose extents are calculated from the
+// matrices as they are, and that of the distance of two points: 8 u for fewer than nine operations in a row, each with
+// a result that is no greater; in float 4 u more for the numbers that were rounded. Boxes touch if their gap is within
+// `at_contact` and their bounds are no further apart than `widest`. Points that `room` does not part are next to each
+// other. u is half an epsilon.
+template <class Scalar>
+struct RestError {
+  static constexpr bool is_float = std::is_same_v<Scalar, float>;
+  static constexpr Scalar u = std::numeric_limits<Scalar>::epsilon() / 2;
+  static constexpr Scalar rest = (is_float ? 13 : 9) * u, at_contact = 8 * u;
+  static constexpr Scalar room = 4 * u, widest = (is_float ? 48 : 40) * u;
+};
 
 template <class Scalar>
 class BoxPairLanes {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "algorithms/kernels/batch/box_pair_lanes.h"
 #include "algorithms/narrow_phase/closed_form/plain_core.h"
 
 namespace touchstone {
@@ -11,10 +12,9 @@ namespace {
 
 using namespace plain;
 
-constexpr double u = 0x1p-53;
-constexpr double error_part = 9 * u, at_contact = 8 * u, room_part = 4 * u, widest = 40 * u;
+using Error = RestError<double>;
 // Gaps of faces beyond this are no contact, whatever rounding did.
-constexpr double near = 128 * u;
+constexpr double near = 128 * Error::u;
 
 struct Box {
   std::array<Vec, 3> axes;
@@ -80,7 +80,7 @@ bool solve_plain_box_rest(Task task, const Shape& shape_a, const Pose& pose_a, c
   const Vec offset = of_b ? -1 * between : between;
   const double along = dot(own.axes[number], offset), side = along < 0 ? -1 : 1;
   const Vec normal = side * own.axes[number];
-  const double room = room_part * size, error = error_part * size;
+  const double room = Error::room * size, error = Error::rest * size;
   const double gap = (std::abs(along) - reach(own, normal)) - reach(other, normal);
   const double depth = std::max(-gap, 0.0), apart = std::max(gap, 0.0);
   // The place of the first point is that deep inside its box from every face; that of the second is
@@ -116,14 +116,15 @@ bool solve_plain_box_rest(Task task, const Shape& shape_a, const Pose& pose_a, c
                 own.half[2] - std::abs(place[2])});
   const double apart_at_most = std::sqrt(dot(line, line)) - inside;
   const double lower = gap - error, upper = apart_at_most + error;
-  const bool narrow = upper - lower < widest * size;
+  const bool narrow = upper - lower < Error::widest * size;
   const Answer answer = lower > 0   ? Answer::separated
                         : upper < 0 ? Answer::overlapping
                                     : Answer::touching;
   const bool asked = asks_for_number(task, answer);
   if (!narrow && (asked || answer != Answer::separated)) return false;
   // Farther from contact another proof may decide.
-  if (answer == Answer::touching && !(std::max(std::abs(gap), apart_at_most) < at_contact * size))
+  if (answer == Answer::touching &&
+      !(std::max(std::abs(gap), apart_at_most) < Error::at_contact * size))
     return false;
   write(answer, outcome);
   if (answer == Answer::touching || asked) {

@@ -13,14 +13,12 @@
 #include "harness/base/table.h"
 #include "harness/grade/grade.h"
 #include "harness/grade/true_case.h"
+#include "harness/kinds/grading.h"
 #include "harness/kinds/pair/pair_checkers.h"
 #include "harness/process/isolate.h"
 
 namespace touchstone::kinds {
 namespace {
-
-// An algorithm may lose so many queries of a job, since each hang costs a time limit.
-constexpr std::size_t most_lost_verdicts = 20;
 
 // The cases of a job in the form that algorithms take: bodies 2i and 2i + 1 are case i's, in order
 // of kinds.
@@ -48,17 +46,16 @@ class CountedCases {
       if (offers(entry, cases_[i].shape_a.kind, cases_[i].shape_b.kind, Task::intersect))
         asked.push_back(i);
     }
-    const process::IsolationLimits limits = {.item_seconds = time_limit,
-                                             .failures = most_lost_verdicts};
-    const auto solved = process::isolated_answers<Outcome>(asked.size(), limits, [&] {
-      const std::shared_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
-      algorithm->bind(shapes_);
-      return [&, algorithm](std::size_t item) {
-        Outcome outcome;
-        algorithm->solve(Task::intersect, batch_of(asked[item]), {&outcome, 1});
-        return outcome;
-      };
-    });
+    const auto solved =
+        process::isolated_answers<Outcome>(asked.size(), batch_limits(time_limit), [&] {
+          const std::shared_ptr<NarrowPhase> algorithm = entry.make({.scalar = scalar});
+          algorithm->bind(shapes_);
+          return [&, algorithm](std::size_t item) {
+            Outcome outcome;
+            algorithm->solve(Task::intersect, batch_of(asked[item]), {&outcome, 1});
+            return outcome;
+          };
+        });
     VerdictCount count;
     for (std::size_t item = 0; item < asked.size(); ++item) {
       const std::size_t i = asked[item];
