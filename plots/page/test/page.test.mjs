@@ -338,6 +338,20 @@ test("a scene opens in slices, between which the page answers", () =>
     assert.ok(seen.answers.length > 0 && seen.answers.every((each) => each === "Close the scene"));
   }));
 
+test("a scene is drawn by a browser that at first draws nothing in three dimensions", () =>
+  on_page(async (page) => {
+    await page.evaluate(() => {
+      const real = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function () {
+        HTMLCanvasElement.prototype.getContext = real;
+        return null;
+      };
+    });
+    const scene = page.locator("#fixed-playback");
+    await scene.getByText("Open the scene").click();
+    await scene.locator("canvas").waitFor();
+  }));
+
 test("a scene that is closed while it opens is not drawn", () =>
   on_page(async (page) => {
     const scene = page.locator("#large-playback");

@@ -2,15 +2,19 @@
 
 const milliseconds_of_a_slice = 10;
 
-// Messages come after what the browser has to do, and are not held back as timers are.
+// Messages come after what the browser has to do, and are not held back as timers are. One channel serves all that
+// wait: a channel of each one's own could be collected before its message comes.
+let channel: MessageChannel | undefined;
+const waiting: (() => void)[] = [];
+
 const next_task = (): Promise<void> =>
   new Promise((resolve) => {
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => {
-      port1.close();
-      resolve();
-    };
-    port2.postMessage(null);
+    if (!channel) {
+      channel = new MessageChannel();
+      channel.port1.onmessage = () => waiting.shift()!();
+    }
+    waiting.push(resolve);
+    channel.port2.postMessage(null);
   });
 
 export class Slices {

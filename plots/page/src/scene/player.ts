@@ -19,10 +19,18 @@ export interface Player {
 // These are the points drawn for each of the screen's, on each axis, from the finest to the coarsest.
 const sharpnesses = [1, 0.8, 0.65, 0.5];
 
+const milliseconds_until_again = 1000;
+
 export async function player(recording: Recording, slices: Slices): Promise<Player> {
   const recorded = await Recorded.read(recording, slices);
   await slices.begin("making a picture");
-  const stage = Stage.open(`${recording.name}, played`, false);
+  const label = `${recording.name}, played`;
+  let stage = Stage.open(label, false);
+  if (!stage) {
+    // A browser whose drawing process ended starts another one, and draws nothing in three dimensions until then.
+    await new Promise((resolve) => setTimeout(resolve, milliseconds_until_again));
+    stage = Stage.open(label, false);
+  }
   if (!stage) {
     return {
       element: quiet("This browser draws nothing in three dimensions."),
