@@ -61,10 +61,9 @@ inline float reduce_max4(Floats4 x) {
   return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 
-namespace baseline {
-// Four lanes in the compiler's own vector types: SSE2 on x86-64, elsewhere what the machine has.
+// Four lanes in the compiler's own vector types.
 template <class Scalar>
-struct Simd {
+struct QuadLanes {
   static constexpr std::size_t width = 4;
   using Vector = Quad<Scalar>;
   using Integer = std::conditional_t<sizeof(Scalar) == 4, std::int32_t, std::int64_t>;
@@ -154,6 +153,110 @@ struct Simd {
       bits |= static_cast<unsigned>((marks[lane] & want) == want) << lane;
     }
     return bits;
+  }
+};
+namespace baseline {
+// SSE2 on x86-64, elsewhere what the machine has.
+template <class Scalar>
+struct Simd : QuadLanes<Scalar> {};
+
+// Four doubles as two vectors of two, which is what SSE2 has: the compiler takes wider ones apart
+// into scalars wherever they are compared.
+template <class Half>
+struct Halves {
+  Half low, high;
+
+  TOUCHSTONE_INLINE auto operator[](std::size_t lane) const {
+    return lane < 2 ? low[lane] : high[lane - 2];
+  }
+  friend TOUCHSTONE_INLINE Halves operator-(Halves x) { return {-x.low, -x.high}; }
+  friend TOUCHSTONE_INLINE Halves operator~(Halves x) { return {~x.low, ~x.high}; }
+#define TOUCHSTONE_OPERATOR(op)                                     \
+  friend TOUCHSTONE_INLINE Halves operator op(Halves a, Halves b) { \
+    return {a.low op b.low, a.high op b.high};                      \
+  }                                                                 \
+  friend TOUCHSTONE_INLINE Halves operator op(double a, Halves b) { \
+    return {a op b.low, a op b.high};                               \
+  }                                                                 \
+  friend TOUCHSTONE_INLINE Halves operator op(Halves a, double b) { \
+    return {a.low op b, a.high op b};                               \
+  }                                                                 \
+  TOUCHSTONE_INLINE Halves& operator op##=(Halves b) { return *this = *this op b; }
+  TOUCHSTONE_OPERATOR(+)
+  TOUCHSTONE_OPERATOR(-)
+  TOUCHSTONE_OPERATOR(*)
+  TOUCHSTONE_OPERATOR(/)
+  TOUCHSTONE_OPERATOR(&)
+  TOUCHSTONE_OPERATOR(|)
+  TOUCHSTONE_OPERATOR(^)
+#undef TOUCHSTONE_OPERATOR
+};
+
+template <>
+struct Simd<double> {
+  using Half = double __attribute__((vector_size(16)));
+  using HalfMask = std::int64_t __attribute__((vector_size(16)));
+  static constexpr std::size_t width = 4;
+  using Vector = Halves<Half>;
+  using Mask = Halves<HalfMask>;
+
+  static TOUCHSTONE_INLINE Vector load(const double* from) {
+    Vector x;
+    std::memcpy(&x, from, sizeof x);
+    return x;
+  }
+  static TOUCHSTONE_INLINE void store(double* to, Vector x) { std::memcpy(to, &x, sizeof x); }
+  static TOUCHSTONE_INLINE Vector broadcast(double x) { return {Half{x, x}, Half{x, x}}; }
+  static TOUCHSTONE_INLINE Mask less(Vector a, Vector b) {
+    return {a.low < b.low, a.high < b.high};
+  }
+  static TOUCHSTONE_INLINE Mask less_equal(Vector a, Vector b) {
+    return {a.low <= b.low, a.high <= b.high};
+  }
+  static TOUCHSTONE_INLINE Mask less_equal(Mask within, Vector a, Vector b) {
+    return within & less_equal(a, b);
+  }
+  static TOUCHSTONE_INLINE Vector select(Mask mask, Vector a, Vector b) {
+    return {mask.low ? a.low : b.low, mask.high ? a.high : b.high};
+  }
+  static TOUCHSTONE_INLINE Vector abs(Vector x) {
+    const HalfMask bits = ~(HalfMask{} + std::numeric_limits<std::int64_t>::min());
+    return {std::bit_cast<Half>(std::bit_cast<HalfMask>(x.low) & bits),
+            std::bit_cast<Half>(std::bit_cast<HalfMask>(x.high) & bits)};
+  }
+  static TOUCHSTONE_INLINE Vector max(Vector a, Vector b) { return select(less(b, a), a, b); }
+  static TOUCHSTONE_INLINE Vector min(Vector a, Vector b) { return select(less(a, b), a, b); }
+  static TOUCHSTONE_INLINE Vector max_abs(Vector a, Vector b) { return max(abs(a), abs(b)); }
+  static TOUCHSTONE_INLINE double reduce_max(Vector x) {
+    const double even = x[0] > x[2] ? x[0] : x[2], odd = x[1] > x[3] ? x[1] : x[3];
+    return even > odd ? even : odd;
+  }
+  static TOUCHSTONE_INLINE Vector sqrt(Vector x) {
+    return {Half{std::sqrt(x[0]), std::sqrt(x[1])}, Half{std::sqrt(x[2]), std::sqrt(x[3])}};
+  }
+  static TOUCHSTONE_INLINE unsigned to_bits(Mask m) {
+    return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
+  }
+  static TOUCHSTONE_INLINE Mask from_bits(unsigned bits) {
+    const auto set = [bits](unsigned lane) { return -static_cast<std::int64_t>(bits >> lane & 1); };
+    return {HalfMask{set(0), set(1)}, HalfMask{set(2), set(3)}};
+  }
+  static TOUCHSTONE_INLINE Vector concat(const Quad<double>* quads) {
+    return std::bit_cast<Vector>(quads[0]);
+  }
+  static TOUCHSTONE_INLINE Vector concat_at(const double* const* at) { return load(at[0]); }
+  static TOUCHSTONE_INLINE void transpose(Vector r[4]) {
+    const Vector a = r[0], b = r[1], c = r[2], d = r[3];
+    for (int k = 0; k < 4; ++k) {
+      const auto lane = static_cast<std::size_t>(k);
+      r[k] = {Half{a[lane], b[lane]}, Half{c[lane], d[lane]}};
+    }
+  }
+  static TOUCHSTONE_INLINE Mask meet(Vector a, Vector b, Vector c, Vector d) {
+    return less_equal(c, b) & less_equal(a, d);
+  }
+  static TOUCHSTONE_INLINE Mask meet(Mask within, Vector a, Vector b, Vector c, Vector d) {
+    return within & meet(a, b, c, d);
   }
 };
 #define TOUCHSTONE_TARGET

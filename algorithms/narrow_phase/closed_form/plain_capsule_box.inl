@@ -11,15 +11,8 @@ struct Eight {
 template <class Lanes>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Eight<Lanes> eight_of(const Quad<double>& first,
                                                           const Quad<double>& second) {
-  Eight<Lanes> eight;
-  if constexpr (Lanes::width == 4) {
-    eight.part[0] = first;
-    eight.part[1] = second;
-  } else {
-    eight.part[0] = std::bit_cast<typename Lanes::Vector>(
-        __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7));
-  }
-  return eight;
+  return std::bit_cast<Eight<Lanes>>(
+      __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7));
 }
 
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> greater(const Quad<double>& x,
@@ -28,13 +21,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> greater(const Quad<double>& x,
 }
 template <class Lanes>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> greater_half(const Eight<Lanes>& x) {
-  if constexpr (Lanes::width == 4) {
-    return greater(x.part[0], x.part[1]);
-  } else {
-    const auto& all = x.part[0];
-    return greater(__builtin_shufflevector(all, all, 0, 1, 2, 3),
-                   __builtin_shufflevector(all, all, 4, 5, 6, 7));
-  }
+  struct Two {
+    Quad<double> first, second;
+  };
+  const auto [first, second] = std::bit_cast<Two>(x);
+  return greater(first, second);
 }
 
 // The greatest number of each.
