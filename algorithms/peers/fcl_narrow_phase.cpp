@@ -26,8 +26,10 @@
 //          turns rotations into quaternions, which changes those that are not orthonormal.
 // Cost:    fcl-libccd allocates two objects a query, EPA of fcl-indep its stores.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "algorithms/core/bounds.h"
 #include "algorithms/narrow_phase.h"
@@ -107,6 +109,51 @@ Encoding quaternion_encoding(ShapeKind a, ShapeKind b, Task task, Precision scal
   return scalar == Precision::float32 ? Encoding::quaternion_float32 : Encoding::quaternion;
 }
 
+// The two questions to a solver, for one pair of kinds: all else is compiled once for all kinds.
+template <class S, template <class> class Solver>
+struct Questions {
+  using Body = fcl::ShapeBase<S>;
+  using Transform = fcl::Transform3<S>;
+  using Contacts = std::vector<fcl::ContactPoint<S>>;
+  bool (*intersect)(const Solver<S>&, const Body&, const Transform&, const Body&, const Transform&,
+                    Contacts*) = nullptr;
+  void (*distance)(const Solver<S>&, const Body&, const Transform&, const Body&, const Transform&,
+                   S* gap, Vec3<S>* witness_a, Vec3<S>* witness_b) = nullptr;
+
+  template <ShapeKind kind_a, ShapeKind kind_b>
+  static constexpr Questions of_kinds() {
+    using A = FclShape<S, kind_a>;
+    using B = FclShape<S, kind_b>;
+    Questions questions;
+    if constexpr (kind_a <= kind_b) {
+      questions.intersect = [](const Solver<S>& solver, const Body& a, const Transform& pose_a,
+                               const Body& b, const Transform& pose_b, Contacts* contacts) {
+        return solver.shapeIntersect(static_cast<const A&>(a), pose_a, static_cast<const B&>(b),
+                                     pose_b, contacts);
+      };
+      if constexpr (kind_b != ShapeKind::halfspace) {
+        questions.distance = [](const Solver<S>& solver, const Body& a, const Transform& pose_a,
+                                const Body& b, const Transform& pose_b, S* gap, Vec3<S>* witness_a,
+                                Vec3<S>* witness_b) {
+          solver.shapeDistance(static_cast<const A&>(a), pose_a, static_cast<const B&>(b), pose_b,
+                               gap, witness_a, witness_b);
+        };
+      }
+    }
+    return questions;
+  }
+
+  static const Questions& of(ShapeKind kind_a, ShapeKind kind_b) {
+    constexpr std::size_t kinds = std::tuple_size_v<FclShapes<S>>;
+    static constexpr auto table = []<std::size_t... place>(std::index_sequence<place...>) {
+      return std::array{of_kinds<static_cast<ShapeKind>(place / kinds),
+                                 static_cast<ShapeKind>(place % kinds)>()...};
+    }
+    (std::make_index_sequence<kinds * kinds>());
+    return table[static_cast<std::size_t>(kind_a) * kinds + static_cast<std::size_t>(kind_b)];
+  }
+};
+
 template <class S, template <class> class Solver>
 class Fcl final : public NarrowPhase {
  public:
@@ -128,23 +175,14 @@ class Fcl final : public NarrowPhase {
 
   void solve(Task task, const PairBatch& batch, std::span<Outcome> outcomes) override {
     if (task == Task::signed_distance) return signed_.solve(*this, batch, outcomes);
-    with_kind(batch.kind_a, [&]<ShapeKind kind_a>() {
-      with_kind(batch.kind_b, [&]<ShapeKind kind_b>() {
-        if constexpr (kind_a <= kind_b) solve_kinds<kind_a, kind_b>(task, batch, outcomes);
-      });
-    });
-  }
-
- private:
-  template <ShapeKind kind_a, ShapeKind kind_b>
-  void solve_kinds(Task task, const PairBatch& batch, std::span<Outcome> outcomes) {
+    const Questions<S, Solver>& ask = Questions<S, Solver>::of(batch.kind_a, batch.kind_b);
+    const bool closed_form = has_closed_form(batch.kind_a, batch.kind_b);
     set_tolerance(solver_, default_tolerance(task));
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
       const std::uint32_t shape_a = batch.pairs.shape_of[first],
                           shape_b = batch.pairs.shape_of[second];
-      const auto& a = static_cast<const FclShape<S, kind_a>&>(*shapes_[shape_a]);
-      const auto& b = static_cast<const FclShape<S, kind_b>&>(*shapes_[shape_b]);
+      const fcl::ShapeBase<S>&a = *shapes_[shape_a], &b = *shapes_[shape_b];
       const fcl::Transform3<S> pose_a = to_fcl<S>(batch.pairs.poses[first]);
       const fcl::Transform3<S> pose_b = to_fcl<S>(batch.pairs.poses[second]);
       if (tolerance_) {
@@ -157,16 +195,26 @@ class Fcl final : public NarrowPhase {
       try {
         switch (task) {
           case Task::intersect:
-            outcome.answer = solver_.shapeIntersect(a, pose_a, b, pose_b, nullptr)
+            outcome.answer = ask.intersect(solver_, a, pose_a, b, pose_b, nullptr)
                                  ? Answer::overlapping
                                  : Answer::separated;
             break;
-          case Task::distance:
-            if constexpr (kind_b != ShapeKind::halfspace) distance(a, pose_a, b, pose_b, outcome);
+          case Task::distance: {
+            if (ask.distance == nullptr) break;
+            S gap = std::numeric_limits<S>::quiet_NaN();
+            Vec3<S> witness_a, witness_b;
+            ask.distance(solver_, a, pose_a, b, pose_b, &gap, &witness_a, &witness_b);
+            write_distance(gap, witness_a, witness_b, outcome);
             break;
+          }
           case Task::signed_distance: break;  // solved by the other two
           case Task::penetration:
-            penetration<has_closed_form(kind_a, kind_b)>(a, pose_a, b, pose_b, outcome);
+            contacts_.clear();
+            if (ask.intersect(solver_, a, pose_a, b, pose_b, &contacts_)) {
+              write_depth(closed_form, pose_a, outcome);
+            } else {
+              outcome.answer = Answer::separated;
+            }
             break;
         }
       } catch (...) {
@@ -182,12 +230,8 @@ class Fcl final : public NarrowPhase {
                                : fcl::CollisionRequest<S>().gjk_tolerance;
   }
 
-  template <class A, class B>
-  void distance(const A& a, const fcl::Transform3<S>& pose_a, const B& b,
-                const fcl::Transform3<S>& pose_b, Outcome& outcome) const {
-    S gap = std::numeric_limits<S>::quiet_NaN();
-    Vec3<S> witness_a, witness_b;
-    solver_.shapeDistance(a, pose_a, b, pose_b, &gap, &witness_a, &witness_b);
+  static void write_distance(S gap, const Vec3<S>& witness_a, const Vec3<S>& witness_b,
+                             Outcome& outcome) {
     if (std::isnan(gap)) {
       outcome.answer = Answer::unknown;
       outcome.status = Status::degenerate;
@@ -204,19 +248,15 @@ class Fcl final : public NarrowPhase {
     }
   }
 
-  template <bool closed_form, class A, class B>
-  void penetration(const A& a, const fcl::Transform3<S>& pose_a, const B& b,
-                   const fcl::Transform3<S>& pose_b, Outcome& outcome) {
-    contacts_.clear();
-    const bool found = solver_.shapeIntersect(a, pose_a, b, pose_b, &contacts_);
-    outcome.answer = found ? Answer::overlapping : Answer::separated;
-    if (found) clear_numbers(outcome);
-    if (!found || contacts_.empty()) return;
+  void write_depth(bool closed_form, const fcl::Transform3<S>& pose_a, Outcome& outcome) const {
+    outcome.answer = Answer::overlapping;
+    clear_numbers(outcome);
+    if (contacts_.empty()) return;
     const fcl::ContactPoint<S>& deepest =
         *std::ranges::max_element(contacts_, {}, &fcl::ContactPoint<S>::penetration_depth);
     S depth = deepest.penetration_depth;
     Vec3<S> normal = deepest.normal;
-    if constexpr (!closed_form && std::is_same_v<Solver<S>, fcl::detail::GJKSolver_indep<S>>) {
+    if (!closed_form && std::is_same_v<Solver<S>, fcl::detail::GJKSolver_indep<S>>) {
       depth = -depth;
       normal = pose_a.linear() * normal;
     }
