@@ -62,11 +62,7 @@ struct UnitHalfspace {
   Vec3d normal;
   double offset;
 
-  explicit UnitHalfspace(const Shape& shape) {
-    const double length = shape.normal.stableNorm();
-    normal = shape.normal / length;
-    offset = shape.offset / length;
-  }
+  explicit UnitHalfspace(const Shape& shape);
 };
 
 // Returns the rotation as a quaternion, which is not normalised.
