@@ -24,6 +24,7 @@
 
 #include <concepts>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -40,25 +41,79 @@ namespace touchstone::record {
 template <class Row, class Type>
 concept row_of = std::same_as<std::remove_const_t<Row>, Type>;
 
+namespace row_detail {
+
+// A field of any type. Lists of columns are compiled once for it, and not for each use of theirs.
+class AnyField {
+ public:
+  template <bool reads, class Field>
+  static AnyField of(Field& field) {
+    return {&field, &acts_of<reads, std::remove_const_t<Field>>};
+  }
+
+  void write(files::CsvWriter& file) const { acts_->write(file, field_); }
+  void read(const Cell& cell) const { acts_->read(cell, const_cast<void*>(field_)); }
+  std::string type() const { return acts_->type(field_); }
+  bool is_newer() const { return acts_->is_newer; }
+
+ private:
+  struct Acts {
+    void (*write)(files::CsvWriter&, const void*);
+    void (*read)(const Cell&, void*);  // none for a field of a constant row
+    std::string (*type)(const void*);
+    bool is_newer;
+  };
+  template <bool reads, class Field>
+  static constexpr Acts acts_of = [] {
+    Acts acts{[](files::CsvWriter& file, const void* field) {
+                row_detail::write(file, *static_cast<const Field*>(field));
+              },
+              nullptr, [](const void* field) { return type_of(*static_cast<const Field*>(field)); },
+              row_detail::is_newer<Field>};
+    if constexpr (reads) {
+      acts.read = [](const Cell& cell, void* field) {
+        row_detail::read(cell, *static_cast<Field*>(field));
+      };
+    }
+    return acts;
+  }();
+  AnyField(const void* field, const Acts* acts) : field_(field), acts_(acts) {}
+
+  const void* field_;
+  const Acts* acts_;
+};
+
+using Look = std::function<void(std::string_view name, AnyField field, std::string_view meaning)>;
+template <bool reads>
+struct Visit {
+  const Look& look;
+  template <class Field>
+  void operator()(std::string_view name, Field&& field, std::string_view meaning) const {
+    look(name, AnyField::of<reads>(field), meaning);
+  }
+};
+
+template <class Row, class... Context>
+void look_at(Row& row, const Look& look, const Context&... context) {
+  columns(row, Visit<!std::is_const_v<Row>>{look}, context...);
+}
+
+}  // namespace row_detail
+
 // Returns the names of the columns in their order.
 template <class Row, class... Context>
 std::vector<std::string> header_of(const Context&... context) {
   std::vector<std::string> names;
   const Row row{};
-  columns(
-      row, [&](std::string_view name, const auto&, std::string_view) { names.emplace_back(name); },
-      context...);
+  row_detail::look_at(
+      row, [&](std::string_view name, auto, auto) { names.emplace_back(name); }, context...);
   return names;
 }
 
 template <class Row, class... Context>
 void write_row(files::CsvWriter& file, const Row& row, const Context&... context) {
-  columns(
-      row,
-      [&](std::string_view, const auto& field, std::string_view) {
-        row_detail::write(file, field);
-      },
-      context...);
+  row_detail::look_at(
+      row, [&](auto, row_detail::AnyField field, auto) { field.write(file); }, context...);
   file.end_row();
 }
 
@@ -77,10 +132,10 @@ template <class Row, class... Context>
 Row read_row(const files::CsvReader::Row& fields, const Context&... context) {
   Row row{};
   std::size_t column = 0;
-  columns(
+  row_detail::look_at(
       row,
-      [&](std::string_view, auto&& field, std::string_view) {
-        row_detail::read(row_detail::Cell{fields, column++}, field);
+      [&](auto, row_detail::AnyField field, auto) {
+        field.read(row_detail::Cell{fields, column++});
       },
       context...);
   return row;
@@ -90,10 +145,10 @@ template <class Row, class... Context>
 files::CsvReader reader_of(std::filesystem::path file, const Context&... context) {
   std::vector<std::string> optional;
   const Row row{};
-  columns(
+  row_detail::look_at(
       row,
-      [&]<class Field>(std::string_view name, const Field&, std::string_view) {
-        if (row_detail::is_newer<Field>) optional.emplace_back(name);
+      [&](std::string_view name, row_detail::AnyField field, auto) {
+        if (field.is_newer()) optional.emplace_back(name);
       },
       context...);
   return {std::move(file), header_of<Row>(context...), optional};
@@ -114,10 +169,10 @@ template <class Row, class... Context>
 std::string column_docs(const Context&... context) {
   std::string text = "| column | type | meaning |\n|---|---|---|\n";
   const Row row{};
-  columns(
+  row_detail::look_at(
       row,
-      [&](std::string_view name, const auto& field, std::string_view meaning) {
-        text += fmt::format("| `{}` | {} | {} |\n", name, row_detail::type_of(field), meaning);
+      [&](std::string_view name, row_detail::AnyField field, std::string_view meaning) {
+        text += fmt::format("| `{}` | {} | {} |\n", name, field.type(), meaning);
       },
       context...);
   return text;
