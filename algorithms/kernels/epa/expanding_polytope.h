@@ -23,7 +23,10 @@
 //          8. Project the origin on the face of the answer; its weights give the witness points
 //             (origin_projection).
 // Departs: both bounds are kept, and the answer is the upper one, because that translation does
-//          separate. The first tetrahedron may have the origin on its surface.
+//          separate. The first tetrahedron may have the origin on its surface, or as far outside
+//          as the simplex is from it (goal.away). The lower bound is then negative, until every
+//          face is further from the origin than the simplex: an origin outside would be as near to
+//          a face.
 #pragma once
 
 #include <array>
@@ -41,6 +44,9 @@ struct ExpansionGoal {
   // Stops when the lower bound exceeds `enough` or the upper bound does not: for queries that need
   // only a verdict. Negative: continue to the tolerance.
   Scalar enough = -1;
+  // The simplex's distance from the origin, which may be that far outside; a few roundings at most.
+  // It is not used if the goal is doubtful.
+  Scalar away = 0;
   // The origin may lie outside. Then a separating plane ends the search, and a positive depth is
   // claimed only after all faces are checked.
   bool doubtful = false;
@@ -59,7 +65,7 @@ template <class Scalar>
 struct Expansion {
   ExpansionEnd end = ExpansionEnd::stuck;
   Scalar lower = 0;  // bounds on the depth: the least distance from the origin to the
-  Scalar upper = 0;  // difference's surface
+  Scalar upper = 0;  // difference's surface, negative from outside
   Vec3<Scalar> normal = Vec3<Scalar>::UnitX();  // outward, at the upper bound
   Vec3<Scalar> a = Vec3<Scalar>::Zero();        // the points of the cores with
   Vec3<Scalar> b = Vec3<Scalar>::Zero();        // a - b = depth * normal

@@ -23,7 +23,12 @@ template <class Pair>
 Expansion<Scalar> ExpandingPolytope<Scalar>::expand(Pair& pair, const Simplex<Scalar>& simplex,
                                                     const ExpansionGoal<Scalar>& goal) {
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  const Scalar away = goal.doubtful ? Scalar{0} : goal.away;
+  // Faces that are nearer may have the origin outside. Both distances are off by the rounding of
+  // the products alone.
+  const Scalar certain = away > 0 ? away + SupportPair<Scalar>::rounding / 2 : Scalar{0};
   Expansion<Scalar> result;
+  result.lower = -away;
   result.upper = infinity;
   if (simplex.size < 4) {
     Simplex<Scalar> tetrahedron = simplex;
@@ -39,7 +44,8 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(Pair& pair, const Simplex<Sc
   result.end = ExpansionEnd::cap;
   for (int iteration = 1; iteration <= max_iterations_; ++iteration) {
     const auto [nearest, distance] = surface_.nearest_face();
-    result.lower = std::max(result.lower, std::min({distance, held, result.upper}));
+    const Scalar least = std::min({distance, held, result.upper});
+    if (least > certain) result.lower = std::max(result.lower, least);
     if (nearest < 0 || distance > result.upper + goal.tolerance) {
       const bool bounded = result.upper - result.lower <= goal.tolerance;
       result.end = bounded ? ExpansionEnd::converged : ExpansionEnd::stuck;

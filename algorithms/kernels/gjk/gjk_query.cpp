@@ -236,8 +236,9 @@ void GjkQuery<Scalar>::solve_contact(SupportPair<Scalar>& pair,
     if (contact && write_if_touching(pair, *contact, task, outcome)) return;
   }
   ExpansionGoal<Scalar> goal{.tolerance = tolerance(pair.is_polytope()),
+                             .away = nearest,
                              .doubtful = !inside_core && !on_core};
-  if (!asks_depth(task)) goal.enough = rounding;
+  if (!asks_depth(task)) goal.enough = (goal.doubtful ? Scalar{0} : nearest) + rounding;
   const Expansion<Scalar> depth = polytope_.expand(pair, found.simplex, goal);
   outcome.iterations += depth.iterations;
   if (depth.end == ExpansionEnd::apart && -depth.upper - radius > rounding) {

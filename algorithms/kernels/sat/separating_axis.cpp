@@ -69,11 +69,17 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
   const double reach_a = static_cast<double>(a.reach) * a.scale * stretch_a;
   const double reach_b = static_cast<double>(b.reach) * b.scale * stretch_b;
   const Vec3d offset = centre_offset(a, pose_a, b, pose_b);
+  // The error of centre_offset if the bodies lie far from their own origins.
+  const double lost =
+      4 * static_cast<double>(std::numeric_limits<long double>::epsilon()) *
+      (stretch_a * a.centre.cwiseAbs().sum() + stretch_b * b.centre.cwiseAbs().sum());
   // The squares of shorter lengths underflow, and the norm is then no bound.
   constexpr double shortest = 1e-140;
-  far_apart_ = offset.cwiseAbs().maxCoeff() > 1.001 * (reach_a + reach_b) && stretch_a > shortest &&
-               stretch_b > shortest;
-  unit_ = power_of_two_above(std::max(reach_a, reach_b));
+  far_apart_ = offset.cwiseAbs().maxCoeff() > 1.001 * (reach_a + reach_b) + lost &&
+               stretch_a > shortest && stretch_b > shortest;
+  // Two points have no size of their own; the unit is then that of the error.
+  constexpr double finest = 16 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+  unit_ = power_of_two_above(std::max({reach_a, reach_b, lost / finest}));
   anchor_ = pose_a(a.centre);
   a_ = place(a, pose_a.rotation, unit_);
   b_ = place(b, pose_b.rotation, unit_);
@@ -82,9 +88,6 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
   // the axis moves the gap by its angle times the reach), and of the products. Each is a few
   // roundings of at most half an epsilon of its operands.
   const auto size = static_cast<Scalar>((reach_a + reach_b) / (unit_ * std::sqrt(3.0)));
-  // The error of centre_offset if the bodies lie far from their own origins.
-  const double lost = 4 * static_cast<double>(std::numeric_limits<long double>::epsilon()) *
-                      (a.centre.cwiseAbs().sum() + b.centre.cwiseAbs().sum());
   error_ = 8 * std::numeric_limits<Scalar>::epsilon() * (size + b_.origin.norm()) +
            static_cast<Scalar>(lost / unit_);
   // The error bound holds for matrices close to rotations or reflections.

@@ -29,8 +29,11 @@ Penetration<Scalar> expand_from(SupportPair<Scalar>& pair, const GjkDistanceResu
                                 Scalar tolerance, ExpandingPolytope<Scalar>& polytope) {
   constexpr Scalar rounding = SupportPair<Scalar>::rounding;
   const bool inside_core = found.nearest.inside && found.nearest.distance > rounding;
-  const bool on_core = !found.nearest.inside && distance_from_origin(found.simplex) <= 4 * rounding;
-  const ExpansionGoal<Scalar> goal{.tolerance = tolerance, .doubtful = !inside_core && !on_core};
+  // The simplex bounds the gap from above.
+  const Scalar gap = found.nearest.inside ? Scalar{0} : distance_from_origin(found.simplex);
+  const bool on_core = !found.nearest.inside && gap <= 4 * rounding;
+  const ExpansionGoal<Scalar> goal{
+      .tolerance = tolerance, .away = gap, .doubtful = !inside_core && !on_core};
   const Expansion<Scalar> depth = polytope.expand(pair, found.simplex, goal);
   Penetration<Scalar> result;
   if (depth.end == ExpansionEnd::apart && -depth.upper - pair.radius() > rounding) {
@@ -44,8 +47,6 @@ Penetration<Scalar> expand_from(SupportPair<Scalar>& pair, const GjkDistanceResu
   const bool known = depth.end == ExpansionEnd::converged || depth.end == ExpansionEnd::flat;
   result.answer = inside ? Answer::overlapping : Answer::unknown;
   if (inside && known) result.status = Status::ok;
-  // The simplex bounds the gap from above, the nearest face the depth.
-  const Scalar gap = found.nearest.inside ? Scalar{0} : distance_from_origin(found.simplex);
   if (!inside) write_if_touching(-depth.upper - pair.radius(), gap - pair.radius(), result);
   result.depth = pair.radius() + depth.upper;
   result.normal = depth.normal;

@@ -21,7 +21,8 @@
 //          edges of a prism or box without thickness.
 // Answers: the depth and both bounds are exact up to rounding. If the greatest gap is below its
 //          rounding error (1e-14 of the size in double, 1e-5 in float), the answer is `touching`
-//          with these bounds on the signed distance.
+//          with these bounds on the signed distance. Two hulls of one point each have no size;
+//          the error is then that of their offset.
 // Fails:   reports degenerate for a solid hull without faces that no tested axis
 //          separates, and for matrices far from rotations; capacity for a hull of more than 16,384
 //          vertices that the line of centres does not separate, and for two hulls of some thousand

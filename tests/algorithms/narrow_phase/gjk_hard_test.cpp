@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -93,6 +95,101 @@ TEST(GjkRound, SphereAgainstBoxAndCylinder) {
     ASSERT_EQ(outcome.answer, truth > 0 ? Answer::separated : Answer::overlapping);
     EXPECT_NEAR(outcome.distance, truth, 1e-9);
   }
+}
+
+// GJK with EPA behind it, all that go through kernels/gjk/gjk_query.
+constexpr std::array ours = {"gjk", "gjk-nesterov", "gjk-switched", "gjk-templated", "gjk-lanes"};
+
+// Asks for the verdict and the signed distance in float. Each must hold for `truth`. Returns the
+// verdict.
+Answer ask_in_float(const char* name, const Body& a, const Body& b, double truth) {
+  const auto algorithm =
+      registry::find<NarrowPhaseEntry>(name)->make({.scalar = Precision::float32});
+  Answer verdict = Answer::unknown;
+  for (const Task task : {Task::signed_distance, Task::intersect}) {
+    const Outcome outcome = query(*algorithm, task, a, b);
+    verdict = outcome.answer;
+    SCOPED_TRACE(testing::Message() << name << " " << to_string(task) << ", truly " << truth << ": "
+                                    << to_string(outcome.answer));
+    EXPECT_FALSE(outcome.answer == Answer::overlapping && truth > 0);
+    EXPECT_FALSE(outcome.answer == Answer::separated && truth < 0);
+    const bool bounded = outcome.status == Status::ok && !std::isnan(outcome.lower);
+    if (task == Task::signed_distance || outcome.answer == Answer::touching) {
+      EXPECT_TRUE(bounded || outcome.status != Status::ok);
+    }
+    if (bounded) {
+      EXPECT_LE(outcome.lower, truth);
+      EXPECT_GE(outcome.upper, truth);
+    }
+  }
+  return verdict;
+}
+
+Mat3d matrix(std::initializer_list<double> rows) {
+  Mat3d m;
+  std::copy(rows.begin(), rows.end(), m.transpose().reshaped().begin());
+  return m;
+}
+
+// A radius of about the rounding beside a smooth body: the simplex of GJK is within rounding of the
+// origin, which may be on either side of it.
+TEST(GjkRound, RadiiWithinRoundingMakeNoOverlap) {
+  struct Case {
+    Body a, b;
+    double truth;
+  };
+  const Case cases[] = {
+      {at(make_capsule(4e-7, 0.6), {0, 0, 0}),
+       at(make_ellipsoid(0.603033, 0.420612, 0.19961), {0.248, 0.43365, 0},
+          matrix({0.5159273841032186, 0.24039883852803587, 0.8222088133599524, 0.5076995723554767,
+                  0.6872692085646589, -0.519521105624183, -0.6899710708156365, 0.6854702279408484,
+                  0.23253061743401682})),
+       8.723468626463867e-07},
+      {at(make_capsule(6e-9, 0.955258656), {0, 0, 0}),
+       at(make_ellipsoid(0.703143774, 0.888003935, 0.81148411),
+          {0.128946111, -0.51996794, -1.48576569},
+          matrix({0.27532946891740245, 0.43500005972823863, -0.8573031153460774, 0.9081187483023729,
+                  0.17494127997709175, 0.38041541443757015, 0.31545843232887694,
+                  -0.8832726060488946, -0.3468652200440421})),
+       1.910275771333385e-06},
+      {at(make_sphere(5e-7), {-0.2614, -0.06322, -0.237235}),
+       at(make_ellipsoid(0.408929, 0.5671, 0.340527), {0, 0, 0},
+          matrix({-0.31620709626269217, 0.05262471825727939, 0.9472294924153588, 0.5547710257111771,
+                  -0.7996888531322437, 0.22962327235584176, 0.7695727264557165, 0.5981039852771243,
+                  0.22367262123723664})),
+       4.5047509363909095e-07}};
+  for (const Case& c : cases) {
+    for (const char* name : ours) ask_in_float(name, c.a, c.b, c.truth);
+  }
+}
+
+// The same at random: a ball or a capsule at a known distance from a point of an ellipsoid, along
+// the normal there.
+TEST(GjkRound, TinyRadiiBesideEllipsoids) {
+  Random random(17);
+  std::map<Answer, int> answers;
+  for (int i = 0; i < drawn(4000, 1000); ++i) {
+    const Vec3d radii{random.uniform(0.2, 0.6), random.uniform(0.2, 0.6), random.uniform(0.2, 0.6)};
+    const Body ellipsoid =
+        at(make_ellipsoid(radii.x(), radii.y(), radii.z()), {0, 0, 0}, random.rotation());
+    const Vec3d on_ball = random.rotation().col(0);
+    const Vec3d place = ellipsoid.pose.rotation * radii.cwiseProduct(on_ball);
+    const Vec3d normal = (ellipsoid.pose.rotation * on_ball.cwiseQuotient(radii)).normalized();
+    const double radius = std::pow(10, random.uniform(-9, -6));
+    const double truth = (i % 2 ? 1 : -1) * std::pow(10, random.uniform(-7, -4.5));
+    Mat3d turned = random.rotation();
+    turned.col(2) = normal.cross(turned.col(0)).normalized();  // along the ellipsoid
+    turned.col(1) = turned.col(2).cross(normal);
+    turned.col(0) = normal;
+    const Body tiny = at(i % 4 < 2 ? make_sphere(radius) : make_capsule(radius, 0.1),
+                         place + (radius + truth) * normal, turned);
+    for (const char* name : ours) ++answers[ask_in_float(name, tiny, ellipsoid, truth)];
+    if (HasFailure()) FAIL() << i;
+  }
+  const int least = drawn(4000, 1000) / 8;
+  EXPECT_GT(answers[Answer::separated], least);
+  EXPECT_GT(answers[Answer::overlapping], least);
+  EXPECT_GT(answers[Answer::touching], least);
 }
 
 // Bodies without a volume: what they answer must be right or be no claim.

@@ -343,6 +343,59 @@ TEST(Sat, SaysSoWhereAHullHasNoFaces) {
   }
 }
 
+// Points have no size of their own: only the rounding of their offset hides that they touch.
+TEST(Sat, PointsAtOnePlaceTouch) {
+  struct Case {
+    Vec3d vertex_a, vertex_b;
+    Pose a, b;
+  };
+  const auto matrix = [](const Vec3d& x, const Vec3d& y, const Vec3d& z) {
+    Mat3d m;
+    m << x.transpose(), y.transpose(), z.transpose();
+    return m;
+  };
+  // In exact arithmetic the two points are the same.
+  const Case cases[] = {
+      {{0.42448032199501307, -0.3191883041343282, 0.841492658224678},
+       {-0.22587289023784418, 0.22407557820969082, -0.6183842947284348},
+       {matrix({0.6982120851468728, -0.33166393829983964, -0.6344280228570426},
+               {0.5823965390431226, -0.252199547818611, 0.7727934131387771},
+               {-0.4163101673817835, -0.909062385159307, 0.017071157635707435}),
+        {-2.543347182121908e-17, -7.58898345046478e-17, -5.12023104428373e-17}},
+       {matrix({-0.9968572104800306, 0.06478642141722427, -0.04558970842111182},
+               {-0.07920916163129765, -0.8243553536514977, 0.5605034876071521},
+               {-0.0012691050544133553, 0.5623530657034455, 0.8268962564108614}),
+        {-0.39949801648743216, 1.4914482539996565, 0.5128552745411993}}},
+      {{1.2705585784987389e-05, 3.860997050451282e-06, -1.1188614846110164e-05},
+       {-1.1371070281442599e-05, 6.568497685436867e-07, -3.887725327454259e-06},
+       {matrix({0.6370920694411041, -0.14066628461274527, 0.7578434478363569},
+               {-0.5550923677323187, -0.7658853354769529, 0.32448746691772734},
+               {0.5347767369104415, -0.6274015056362243, -0.5660222543194035}),
+        {-1.0443367661184763e-05, 1.4297269776351198e-05, -1.459298666928217e-05}},
+       {Mat3d::Identity(),
+        {-2.5043317901365034e-22, -4.885076005287457e-22, 1.9349144322201888e-22}}}};
+  for (const Case& c : cases) {
+    const Shape a = bare_hull({c.vertex_a}, 0), b = bare_hull({c.vertex_b}, 0);
+    const double size = c.vertex_a.norm();
+    for (const char* name : {"sat", "sat-faces"}) {
+      for (const Precision scalar : {Precision::float64, Precision::float32}) {
+        for (const Task task : {Task::intersect, Task::penetration}) {
+          const Outcome same = ask_named(name, scalar, task, a, c.a, b, c.b);
+          EXPECT_EQ(same.answer, Answer::touching) << name;
+          EXPECT_EQ(same.status, Status::ok);
+          EXPECT_LE(same.lower, 0);
+          EXPECT_GE(same.lower, -1e-15 * size);
+          Pose away = c.b;
+          away.translation += 1e-14 * size * Vec3d::UnitY();
+          const Outcome apart = ask_named(name, scalar, task, a, c.a, b, away);
+          EXPECT_EQ(apart.answer, Answer::separated) << name;
+          EXPECT_EQ(apart.status, Status::ok);
+        }
+      }
+    }
+  }
+}
+
 // A matrix is used as it stands: one that was rounded to float is not quite a rotation.
 TEST(Sat, TakesMatricesLiterally) {
   Random random(22);
