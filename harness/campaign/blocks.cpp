@@ -203,9 +203,10 @@ RunContext CampaignBlocks::context(std::int64_t number, record::Findings* findin
 std::string CampaignBlocks::label(std::int64_t number) const {
   const Block& block = this->block(number);
   const scene::Scene& scene = scene_of(block).scene;
-  return fmt::format("{}, {} bodies, {} frames{}, {} boxes, {} thread{}{}", scene.name,
-                     scene.size(), scene.frames, block.group->rebuild ? " rebuilt" : "",
-                     to_string(block.boxes), block.threads, block.threads == 1 ? "" : "s",
+  return fmt::format("{}, {} bodies, {} frame{}{}, {} boxes, {} thread{}{}", scene.name,
+                     scene.size(), scene.frames, scene.frames == 1 ? "" : "s",
+                     block.group->rebuild ? " rebuilt" : "", to_string(block.boxes), block.threads,
+                     block.threads == 1 ? "" : "s",
                      block.isa ? fmt::format(", {} instructions", to_string(*block.isa)) : "");
 }
 

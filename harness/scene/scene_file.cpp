@@ -156,7 +156,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
                : table.contains("import") ? "import"
                                           : "body",
                given == 0 ? "missing; expected generator = \"...\", [[body]] or import = \"...\""
-                          : "given beside another; expected one of generator, [[body]] and import");
+                          : "found more than one of generator, [[body]] and import; expected one");
   }
 
   Scene scene;

@@ -144,7 +144,7 @@ std::vector<std::string> remarks(const Results& a, const Results& b) {
   const auto tell_suspects = [&](const Results& results, const char* name) {
     for (const SampleSet& set : results.sets) {
       if (!set.suspect) continue;
-      lines.push_back(fmt::format("in {}, {} was told from itself: its times are suspect in {}",
+      lines.push_back(fmt::format("in {}, {} differed from its own copy: times are suspect in {}",
                                   name, set.twin.label, set.key.words()));
     }
   };

@@ -91,8 +91,8 @@ void describe(const DescribeOptions& options) {
   const std::size_t first = overlaps_of(player.boxes());
   std::size_t moved = 0;
   while (player.next()) moved += player.change().moved.size();
-  fmt::print("{}: {} bodies, {} frames\n\n{}\n", scene.name, scene.size(), player.frame() + 1,
-             table.text(base::page_width()));
+  fmt::print("{}: {} bodies, {} frame{}\n\n{}\n", scene.name, scene.size(), player.frame() + 1,
+             player.frame() == 0 ? "" : "s", table.text(base::page_width()));
   fmt::print("Pairs of boxes that overlap in frame 0: {}, or {:.3g} a body\n", first,
              static_cast<double>(first) / bodies);
   if (player.frame() > 0) {

@@ -36,7 +36,11 @@ async function shown(page, place) {
   const rounded = await table.evaluate((table) => ({
     columns: [...table.tHead.rows[0].cells].slice(1).map((cell) => cell.dataset.column),
     lines: [...table.tBodies[0].rows].map((row) =>
-      [...row.cells].slice(1).map((cell) => [cell.title || cell.textContent, cell.textContent]),
+      [...row.cells].slice(1).map((cell) => {
+        const interval = cell.querySelector("small"); // of the number before it
+        const text = cell.firstChild?.textContent ?? "";
+        return [cell.title || text, text, interval && [interval.title, interval.textContent.slice(2, -1)]];
+      }),
     ),
   }));
   // The mouse may miss it while parts above are still filled.
@@ -99,6 +103,7 @@ test("numbers are the text of the files", { skip }, async () => {
     );
     const compared = new Set(),
       folders = new Set();
+    let intervals = 0;
     const tables = await page.locator("div.grid:has(table[data-file])").count();
     for (let place = 0; place < tables; ++place) {
       const { file, folder, columns, lines, rounded } = await shown(page, place);
@@ -111,6 +116,14 @@ test("numbers are the text of the files", { skip }, async () => {
           const place = expected.columns.indexOf(rounded.columns[column]);
           assert.equal(field[0], expected.lines[row][place], `${folder}/${file}: row ${row}`);
           check_rounded(field, `${folder}/${file}`);
+          if (!field[2]) return;
+          const [whole, short] = field[2].map((text) => text.split(" to "));
+          ["low", "high"].forEach((end, i) => {
+            const column_of_end = expected.columns.indexOf(`${rounded.columns[column]}_${end}`);
+            assert.equal(whole[i], expected.lines[row][column_of_end], `${folder}/${file}: row ${row}, ${end}`);
+            check_rounded([whole[i], short[i]], `${folder}/${file}`);
+            ++intervals;
+          });
         }),
       );
       const order = columns.map((column) => expected.columns.indexOf(column));
@@ -127,6 +140,7 @@ test("numbers are the text of the files", { skip }, async () => {
       compared.add(join(folder, file));
     }
     assert.ok(folders.size >= results.length, "a folder has no table");
+    assert.ok(results.length === 0 || intervals > 0, "no interval is shown");
     for (const folder of folders) {
       for (const name of await readdir(folder)) {
         const file = name.replace(/\.zst$/, "");

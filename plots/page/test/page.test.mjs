@@ -225,6 +225,40 @@ test("the first screen says who is fastest and who is right, and its state is in
     assert.equal(address.get("show"), "ours alone");
   }));
 
+test("the summary counts what is approximate by design apart", async () => {
+  const out = join(await mkdtemp(join(tmpdir(), "page-")), "race.html");
+  const text = async (approximate) => {
+    const bundle = { ...bundle_of([raced()]), approximate };
+    const { page } = await open(browser, await fill(process.env.PAGE, out, bundle));
+    const told = await page.locator("#raced-overview").textContent();
+    await page.close();
+    return told;
+  };
+  assert.match(await text([]), /The libraries answered 100 queries: 10 on the wrong side of contact,[^.]*\.(?! Of)/);
+  assert.match(
+    await text(["untimed"]),
+    /100 queries: 7 on the wrong side of contact,[^.]*\. Of untimed, approximate by design, 3 more are on the wrong side\./,
+  );
+});
+
+test("below six undisturbed squares nobody leads", async () => {
+  const out = join(await mkdtemp(join(tmpdir(), "page-")), "few.html");
+  const told = async (squares) => {
+    const results = folder_of("few", {
+      "times.csv":
+        "scene,bodies,algorithm,origin,unit,seconds,seconds_low,seconds_high,squares,samples,noisy\n" +
+        `grid,9,mine,ours,frame,1,1,1,6,9,0\ngrid,9,theirs,peer,frame,3,3,3,${squares},9,0\ngrid,9,other,peer,frame,4,4,4,4,9,0\n`,
+      "broad_best.csv": "scene,bodies,ours,peer,peer_ratio,peer_ratio_low,peer_ratio_high\ngrid,9,mine,theirs,3,2.8,3.2\n",
+    });
+    const { page } = await open(browser, await fill(process.env.PAGE, out, bundle_of([results])));
+    const text = await page.locator("#fastest .told").textContent();
+    await page.close();
+    return text;
+  };
+  assert.equal(await told(6), "ours faster in 1 of 1; 3 ×");
+  assert.equal(await told(5), "ours faster in 0 of 1, unclear in 1");
+});
+
 test("an address brings the state of the first screen back", () =>
   on_race(
     async ({ page, first, names }) => {
@@ -247,6 +281,30 @@ test("a matrix shows who leads, and what is equal", () =>
       ["alone", "no library is rightmine"],
     ]);
   }));
+
+test("a matrix of scenes that share no number of bodies has one column", async () => {
+  const out = join(await mkdtemp(join(tmpdir(), "page-")), "sparse.html");
+  const heads = async (counts) => {
+    const header = "scene,bodies,threads,task,pair_kind,";
+    const sets = counts.map((bodies, i) => `scene${i},${bodies},1,,,`);
+    const results = folder_of("sparse", {
+      "times.csv":
+        `${header}algorithm,origin,unit,seconds,seconds_low,seconds_high,wrong,samples,noisy\n` +
+        sets.map((set) => `${set}mine,ours,frame,1,1,1,0,9,0\n${set}theirs,peer,frame,3,3,3,0,9,0\n`).join(""),
+      "broad_best.csv":
+        `${header}ours,peer,peer_ratio,peer_ratio_low,peer_ratio_high\n` +
+        sets.map((set) => `${set}mine,theirs,3,2.8,3.2\n`).join(""),
+    });
+    const { page } = await open(browser, await fill(process.env.PAGE, out, bundle_of([results])));
+    const all = await page.locator("#sparse-fastest .matrix th").allTextContents();
+    await page.close();
+    return all;
+  };
+  assert.deepEqual(await heads([10, 20, 1000]), [
+    "Which boxes overlap?", "scene0, 10 bodies", "scene1, 20 bodies", "scene2, 1,000 bodies",
+  ]);
+  assert.deepEqual(await heads([10, 10, 1000]), ["10 bodies", "1,000 bodies", "scene0", "scene1", "scene2"]);
+});
 
 test("a departure leads to its pair, which is drawn", () =>
   on_page(async (page) => {
@@ -470,12 +528,12 @@ test("columns that say nothing are left out, until the file is shown as it stand
     const grid = page.locator("#made-times");
     const columns = () => grid.locator("th[data-column]").evaluateAll((heads) => heads.map((head) => head.dataset.column));
     assert.deepEqual(await columns(), [
-      "bodies", "algorithm", "origin", "seconds", "seconds_low", "seconds_high", "update", "find_pairs",
+      "bodies", "algorithm", "origin", "seconds", "update", "find_pairs",
     ]);
     assert.match(await grid.textContent(), /The same in all rows: scene grid, threads 1, .*Empty in all rows: task, pair kind/);
-    const low = grid.locator('tbody tr').first().locator("td").nth(4);
-    assert.equal(await low.textContent(), "9 µs");
-    assert.equal(await low.getAttribute("title"), "0.000009");
+    const time = grid.locator("tbody tr").first().locator("td").nth(3);
+    assert.equal(await time.textContent(), "10 µs (9 µs to 11 µs)");
+    assert.match(await time.locator("small").getAttribute("title"), /^0\.000009 to 0\.000011/);
     await grid.getByLabel("as in the file").check();
     assert.equal((await columns()).length, 20);
     assert.ok((await grid.locator("tbody tr").first().locator("td").allTextContents()).includes("0.000009"));

@@ -1,5 +1,5 @@
 // The matrix has the best library against the best of ours: kinds of pairs down and questions across, or scenes down and
-// numbers of bodies across.
+// numbers of bodies across, unless most of its fields were empty so.
 import { make, quiet } from "../base/dom";
 import { count_text, interval_text, number_of, number_text } from "../base/numbers";
 import { part } from "../base/section";
@@ -94,16 +94,20 @@ export function winners(folder: Folder): HTMLElement | null {
   const with_kinds = ({ kind, entries }: Input): boolean => entries[0]!.row.text("task") !== "" && kind !== "";
   const is_cell = ({ entries }: Input): boolean => entries[0]!.row.text("cell") !== "";
   const tables = grouped(compared, (input) => (with_kinds(input) ? "kinds" : is_cell(input) ? "cells" : "bodies"));
+  // Where few scenes share a number of bodies, it stands in the row's name.
+  const of_bodies = tables.get("bodies") ?? [];
+  const count = ({ bodies }: Input): string => `${count_text(Number(bodies))} bodies`;
+  const fields = distinct(of_bodies.map(({ scene }) => scene)).length * distinct(of_bodies.map(count)).length;
+  const sparse = distinct(of_bodies.map((input) => `${input.scene}\n${count(input)}`)).length < fields / 2;
   const shapes: Record<string, Shape> = {
     kinds: {
       down: (input) => [input.kind, input.scene, words_of_threads(input)],
       across: ({ question }) => question,
     },
     cells: { down: ({ scene }) => [scene], across: ({ kind }) => kind },
-    bodies: {
-      down: (input) => [input.scene, input.kind, words_of_threads(input)],
-      across: ({ bodies }) => `${count_text(Number(bodies))} bodies`,
-    },
+    bodies: sparse
+      ? { down: (input) => [input.scene, count(input), input.kind, words_of_threads(input)], across: ({ question }) => question }
+      : { down: (input) => [input.scene, input.kind, words_of_threads(input)], across: count },
   };
   return part(
     `${folder.anchor}-fastest`,

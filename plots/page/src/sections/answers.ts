@@ -7,10 +7,10 @@ import type { Row } from "../tables/table";
 const total = (rows: Row[], column: string): number =>
   rows.reduce((sum, row) => sum + (row.number(column) || 0), 0);
 
-export function answers(folder: Folder, origins: Record<string, string>): string[] {
+export function answers(folder: Folder, origins: Record<string, string>, approximate: string[] = []): string[] {
   const lines = [
     ...timed(folder),
-    ...agreed(folder),
+    ...agreed(folder, approximate),
     ...checked(folder, origins),
     ...swept(folder),
     ...soaked(folder),
@@ -33,7 +33,8 @@ function timed(folder: Folder): string[] {
   ];
 }
 
-function agreed(folder: Folder): string[] {
+// What is approximate by design is counted apart, as in the summary.
+function agreed(folder: Folder, approximate: string[]): string[] {
   const all = folder.rows("agreement.csv");
   return [
     { origin: "ours", who: "Ours" },
@@ -41,10 +42,16 @@ function agreed(folder: Folder): string[] {
   ].flatMap(({ origin, who }) => {
     const rows = all.filter((row) => row.text("origin") === origin);
     if (rows.length === 0) return [];
+    const name = (row: Row): string => row.text("algorithm").split(" ")[0] ?? "";
+    const loose = rows.filter((row) => approximate.includes(name(row)) && row.number("wrong") > 0);
+    const by_design = total(loose, "wrong");
     return [
       `${who} answered ${count_text(total(rows, "queries"))} queries: ` +
-        `${count_text(total(rows, "wrong"))} on the wrong side of contact, ` +
-        `${count_text(total(rows, "failed"))} gave up, ${count_text(total(rows, "unanswered"))} without an answer.`,
+        `${count_text(total(rows, "wrong") - by_design)} on the wrong side of contact, ` +
+        `${count_text(total(rows, "failed"))} gave up, ${count_text(total(rows, "unanswered"))} without an answer.` +
+        (by_design > 0
+          ? ` Of ${distinct(loose.map(name)).join(", ")}, approximate by design, ${count_text(by_design)} more are on the wrong side.`
+          : ""),
     ];
   });
 }

@@ -14,7 +14,7 @@ export const summary = (bundle: Bundle, folders: Folder[]): HTMLElement | null =
           part(
             `${folder.anchor}-overview`,
             folder.name,
-            make("ul", {}, ...answers(folder, bundle.origins).map((text) => make("li", {}, text))),
+            make("ul", {}, ...answers(folder, bundle.origins, bundle.approximate).map((text) => make("li", {}, text))),
             ...folder.results.notes.map((note) => make("p", { class: "wrong" }, note)),
           ),
         ),

@@ -55,7 +55,17 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
   );
   if (constant.size === all_columns.length) constant.clear();
   const is_hash = (column: number): boolean => /(^|_)hash$/.test(table.columns[column]!);
-  const hidden = new Set([...constant, ...(options.file ? all_columns.filter(is_hash) : [])]);
+  // Both ends of an interval stand behind the number that it is of.
+  const ends = new Map<number, [number, number]>();
+  for (const column of all_columns) {
+    const [low, high] = ["low", "high"].map((end) => table.columns.indexOf(`${table.columns[column]}_${end}`));
+    if (low! >= 0 && high! >= 0) ends.set(column, [low!, high!]);
+  }
+  const hidden = new Set([
+    ...constant,
+    ...(options.file ? all_columns.filter(is_hash) : []),
+    ...[...ends.values()].flat(),
+  ]);
   const telling = all_columns.filter((column) => !hidden.has(column));
   let as_in_file = false,
     columns = telling;
@@ -174,10 +184,17 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
       const text = table.field(row.index, column);
       if (!numeric.has(column)) return make("td", {}, text);
       const short = as_in_file ? text : field_text(text, times.has(column));
-      return make("td", { class: "number", title: short === text ? undefined : text }, short);
+      return make("td", { class: "number", title: short === text ? undefined : text }, short, interval(row, column));
     });
     const element = make("tr", { id: anchor }, head, ...cells);
     return element;
+  }
+
+  function interval(row: Row, column: number): HTMLElement | null {
+    const [low, high] = (ends.get(column) ?? []).map((end) => table.field(row.index, end));
+    if (as_in_file || !low || !high) return null;
+    const [short_low, short_high] = [low, high].map((text) => field_text(text, times.has(column)));
+    return make("small", { title: `${low} to ${high}` }, ` (${short_low} to ${short_high})`);
   }
 
   // An address may name a row that is hidden. It is shown, whatever hides it.

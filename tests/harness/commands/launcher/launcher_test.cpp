@@ -89,11 +89,15 @@ class Launcher : public testing::Test {
     fs::permissions(path(name), fs::perms::owner_all);
   }
 
-  Launched launch(const std::string& words) const {
+  // Runs the launcher; with `typed`, on a terminal where somebody answers so.
+  Launched launch(const std::string& words, const std::string& typed = "") const {
     for (const char* name : {"asked", "ran"}) fs::remove(folder_.path() / name);
+    std::string command = "./touchstone " + words;
+    if (!typed.empty())
+      command = "printf '" + typed + "' | script -qec '" + command + "' /dev/null";
     const Ran ran =
-        run_shell("cd " + path("tree") + " && LOG=" + path("") + " PATH=" + path("bin") +
-                  ":$PATH TOUCHSTONE_PRESET=release ./touchstone " + words);
+        run_shell("cd " + path("tree") + " && export LOG=" + path("") + " PATH=" + path("bin") +
+                  ":$PATH TOUCHSTONE_PRESET=release && " + command);
     Launched launched{ran.status, ran.text, {}, {}};
     std::istringstream asked(folder_.read("asked"));
     for (std::string target; std::getline(asked, target);) launched.asked.insert(target);
@@ -295,8 +299,72 @@ TEST_F(Launcher, SaysThatAnInstallationWasInterrupted) {
                 "echo \"E: dpkg was interrupted, run 'dpkg --configure -a'\"; exit 100");
   const Launched launched = launch("show results --figures");
   EXPECT_EQ(launched.status, 2);
-  EXPECT_THAT(launched.text, HasSubstr("installing 1 package through apt: python3-matplotlib\n"));
+  EXPECT_THAT(launched.text, HasSubstr("missing: python3-matplotlib\n"));
   EXPECT_THAT(launched.text, HasSubstr("dpkg --configure -a` ends it, then try again"));
+}
+
+TEST_F(Launcher, AsksOnATerminalBeforeItInstalls) {
+  ASSERT_EQ(launch("list").status, 0);
+  write_program("bin/apt-get", R"(
+    case "$*" in
+      *--assume-no*) echo "After this operation, ${SIZE:-1,312 MB} of additional disk space will be used." ;;
+      install*) echo "apt-get $*" >>"$LOG/installed" && touch "$LOG/there" ;;
+    esac)");
+  write_program("tree/plots/python", R"([[ $1 != -c || -e $LOG/there ]])");
+  const std::string figures = "show results --figures";
+  const std::string question = "Install 1 package (1,312 MB, about 2 minutes) with apt? [Y/n] ";
+  struct Case {
+    std::string words, typed;
+    bool asks, installs;
+  };
+  for (const Case& c :
+       {Case{figures, "n\\n", true, false}, Case{figures, "no\\n", true, false},
+        Case{figures, "maybe\\n", true, false}, Case{figures, "\\004", true, false},
+        Case{figures, "\\n", true, true}, Case{figures, "Yes\\n", true, true},
+        Case{figures + " --yes", "n\\n", false, true},
+        Case{"--yes " + figures, "n\\n", false, true}, Case{figures, "", false, true},
+        Case{"setup", "n\\n", true, false}, Case{"setup", "y\\n", true, true}}) {
+    for (const char* name : {"there", "installed"}) fs::remove(path(name));
+    const Launched launched = launch(c.words, c.typed);
+    EXPECT_EQ(launched.text.find(question) != std::string::npos, c.asks) << launched.text;
+    EXPECT_EQ(fs::exists(path("installed")), c.installs) << c.words << c.typed << launched.text;
+    EXPECT_EQ(launched.status, c.installs || c.words == "setup" ? 0 : 2) << launched.text;
+    EXPECT_EQ(launched.text.find("nothing is installed") == std::string::npos, c.installs);
+    const std::string done = "installing 1 package through apt: 1,312 MB";
+    EXPECT_EQ(launched.text.find(done) != std::string::npos, c.installs);
+    EXPECT_THAT(launched.ran, Not(HasSubstr("--yes")));
+  }
+  // A unit that apt counts in, and none at all.
+  const std::map<std::string, std::string> sizes = {{"9.5 GB", "(9.5 GB, about 15 minutes)"},
+                                                    {"1.3 GB", "(1.3 GB, about 2 minutes)"},
+                                                    {"900 kB", "(900 kB, about a minute)"},
+                                                    {"much", "1 package with apt?"}};
+  for (const auto& [size, text] : sizes) {
+    fs::remove(path("there"));
+    ::setenv("SIZE", size.c_str(), 1);
+    EXPECT_THAT(launch(figures, "n\\n").text, HasSubstr(text));
+    ::unsetenv("SIZE");
+  }
+  ::setenv("TOUCHSTONE_YES", "1", 1);
+  EXPECT_THAT(launch(figures, "n\\n").text, Not(HasSubstr("[Y/n]")));
+  ::unsetenv("TOUCHSTONE_YES");
+  EXPECT_TRUE(fs::exists(path("there")));
+}
+
+TEST_F(Launcher, AsksOnceForAllThatSetupInstalls) {
+  ASSERT_EQ(launch("list").status, 0);
+  std::string text = folder_.read("tree/touchstone");
+  const std::string sign = "program:npm";
+  text.replace(text.find(sign), sign.size(), "program:npm-of-no-machine");
+  folder_.write("tree/touchstone", text);
+  write_program("bin/apt-get", R"([[ "$*" != *install*-y* ]] || echo "$*" >>"$LOG/installed")");
+  write_program("tree/plots/python", R"([[ -e $LOG/installed ]])");
+  const Launched launched = launch("setup", "y\\n");
+  EXPECT_EQ(launched.status, 0) << launched.text;
+  EXPECT_THAT(launched.text, HasSubstr("missing: python3-matplotlib npm"));
+  EXPECT_THAT(launched.text, HasSubstr("Install 2 packages with apt? [Y/n] "));
+  EXPECT_THAT(launched.text, HasSubstr("going on without pages: npm"));
+  EXPECT_THAT(folder_.read("installed"), HasSubstr(" python3-matplotlib npm\n"));
 }
 
 }  // namespace
