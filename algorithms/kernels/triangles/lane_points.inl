@@ -14,9 +14,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector load_doubles(const double* from) {
 }
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector load_doubles(const float* from) {
   using Narrow = float __attribute__((vector_size(Lanes::width * sizeof(float))));
+  using Wide = double __attribute__((vector_size(Lanes::width * sizeof(double))));
   Narrow x;
   __builtin_memcpy(&x, from, sizeof x);
-  return __builtin_convertvector(x, Vector);
+  return std::bit_cast<Vector>(__builtin_convertvector(x, Wide));
 }
 template <class Block>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points points_at(const Block& block, std::size_t corner,
