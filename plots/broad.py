@@ -1,6 +1,6 @@
 """Time a body against the number of bodies: the best of ours against the best of each library, log-log, with 95 %
 intervals; a column a scene, the upper line rebuilt each frame and the lower one updated. The limit is in the upper one
-alone: one that keeps what it found before needs not sort."""
+alone: one that keeps what it found before need not sort."""
 
 import sys
 

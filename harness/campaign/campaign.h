@@ -38,6 +38,8 @@ struct CampaignRule {
   std::optional<bool> warm;
   std::optional<int> batch;
   std::optional<std::int64_t> counts_above, counts_below;  // limits of the number of bodies
+
+  bool operator==(const CampaignRule&) const = default;
 };
 
 // One algorithm in one set of a block. If it is a broad phase, the fields from `narrow` on are

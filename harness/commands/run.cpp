@@ -133,13 +133,29 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   return campaign;
 }
 
-// Leaves each group a small part of its time, for a first look. It has a folder of its own. What differed from an
-// earlier group in the number of boxes alone is left out.
+constexpr int quick_frames = 4;
+constexpr std::int64_t quick_bodies = 1000;  // of a generator
+
+// True if all that a group without narrow phases measures of a scene is measured by an earlier group too.
+bool is_measured_by(const campaign::CampaignGroup& earlier, const campaign::CampaignGroup& group) {
+  const auto grid = [](const campaign::CampaignGroup& of) {
+    return std::tie(of.counts, of.seeds, of.gaps, of.frames, of.boxes, of.threads, of.executors,
+                    of.isa, of.rebuild, of.broad, of.limit, of.tasks, of.pairing, of.include,
+                    of.time_limit, of.memory_limit);
+  };
+  return group.narrow.empty() && grid(earlier) == grid(group) &&
+         std::ranges::equal(earlier.concave, group.concave, {}, &measure::NarrowChoice::label,
+                            &measure::NarrowChoice::label) &&
+         std::ranges::all_of(earlier.exclude, [&](const campaign::CampaignRule& rule) {
+           return std::ranges::find(group.exclude, rule) != group.exclude.end();
+         });
+}
+
+// Leaves each group a small part of its time, for a first look. It has a folder of its own. Scenes
+// of boxes that an earlier group then has with as many boxes are left out.
 void make_quick(campaign::Campaign& campaign) {
   constexpr double quick_seconds = 0.6;  // for the samples of a block
   constexpr int quick_squares = 8;       // an interval needs six, and some are disturbed
-  constexpr int quick_frames = 4;
-  constexpr std::int64_t quick_bodies = 1000;  // of a generator
   campaign.name += "-quick";
   for (campaign::CampaignGroup& group : campaign.groups) {
     group.seconds = std::min(group.seconds, quick_seconds);
@@ -152,14 +168,9 @@ void make_quick(campaign::Campaign& campaign) {
     // The share of one of many sets would end before it has an interval.
     if (!group.choices().empty()) group.squares = quick_squares;
   }
-  const auto grid = [](const campaign::CampaignGroup& group) {
-    return std::tie(group.counts, group.seeds, group.gaps, group.frames, group.boxes, group.threads,
-                    group.executors, group.isa, group.rebuild, group.broad);
-  };
   for (auto group = campaign.groups.begin(); group != campaign.groups.end(); ++group) {
-    if (!group->choices().empty()) continue;
     for (auto earlier = campaign.groups.begin(); earlier != group; ++earlier) {
-      if (grid(*earlier) != grid(*group)) continue;
+      if (!is_measured_by(*earlier, *group)) continue;
       std::erase_if(group->scenes, [&](const std::filesystem::path& scene) {
         return std::ranges::find(earlier->scenes, scene) != earlier->scenes.end();
       });
@@ -331,8 +342,9 @@ void add_run_options(Arguments command, const WholeRun* whole) {
   add_depth_error(command, options->depth_error);
   add_shard(command, options->plan, options->shard).excludes(campaign);
   command.flag("--quick", options->quick,
-               "Take few samples, of at most 4 frames and 2,000 generated bodies where the "
-               "campaign names more, for a first look");
+               fmt::format("Take few samples, of at most {} frames and {} generated bodies where "
+                           "the campaign names more, for a first look",
+                           quick_frames, quick_bodies));
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
   add_peer(command, options->peers).excludes(command.option("--plan"));
 

@@ -92,9 +92,9 @@ Expansion<Scalar> ExpandingPolytope<Scalar>::expand(Pair& pair, const Simplex<Sc
   return result;
 }
 
-// Adds support points away from the simplex until it is a tetrahedron. The origin lies on the
-// simplex, and therefore on the tetrahedron's surface. Returns false if the difference has no
-// volume.
+// Adds support points away from the simplex until it is a tetrahedron. The origin lies within
+// `away` of the simplex, and therefore of the tetrahedron's surface. Returns false if the
+// difference has no volume.
 template <class Scalar>
 template <class Pair>
 bool ExpandingPolytope<Scalar>::grow_to_tetrahedron(Pair& pair, Simplex<Scalar>& simplex,

@@ -79,7 +79,8 @@ PolytopePair<Scalar>::PolytopePair(const Polytope<Scalar>& a, const Pose& pose_a
                stretch_a > shortest && stretch_b > shortest;
   // Two points have no size of their own; the unit is then that of the error.
   constexpr double finest = 16 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
-  unit_ = power_of_two_above(std::max({reach_a, reach_b, lost / finest}));
+  const double reach = std::max(reach_a, reach_b);
+  unit_ = power_of_two_above(reach > 0 ? reach : lost / finest);
   anchor_ = pose_a(a.centre);
   a_ = place(a, pose_a.rotation, unit_);
   b_ = place(b, pose_b.rotation, unit_);

@@ -8,7 +8,8 @@
 // Paper:   Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996 (the axes of two boxes); Gregorius,
 //          "The Separating Axis Test between Convex Polyhedra", GDC 2013 (the axes of two
 //          polytopes).
-// Steps:   1. Place both polytopes in a frame around the centre of a, in units of the larger body.
+// Steps:   1. Place both polytopes in a frame around the centre of a, in units of the larger body
+//             (of the error, for two points).
 //          2. If the offset exceeds the balls around both, report `separated` (`far_apart`).
 //          3. For each face normal of a, the gap is b's least height along it minus the face's
 //             offset. Stop at an axis whose gap exceeds the error bound (`face_axis`).

@@ -237,7 +237,7 @@ test("the summary counts what is approximate by design apart", async () => {
   assert.match(await text([]), /The libraries answered 100 queries: 10 on the wrong side of contact,[^.]*\.(?! Of)/);
   assert.match(
     await text(["untimed"]),
-    /100 queries: 7 on the wrong side of contact,[^.]*\. Of untimed, approximate by design, 3 more are on the wrong side\./,
+    /100 queries: 7 on the wrong side of contact,[^.]*\. Of untimed, approximate by design, 3 more on the wrong side\./,
   );
 });
 

@@ -44,6 +44,26 @@ TEST_F(RunCommand, RunsACampaignAndPrintsItsTables) {
   EXPECT_FALSE(read_rows(folder_.path() / "out/machine.csv", {"name", "value"}).empty());
 }
 
+// With few boxes a later group may measure what an earlier one did. If it measures anything else, it stays.
+TEST_F(RunCommand, LeavesOutOfAFirstLookWhatIsMeasuredAlready) {
+  const std::string few = "[[group]]\nscenes = 's.toml'\nnarrow = 'none'\ncounts = 2000\n";
+  const std::string many = "[[group]]\nscenes = 's.toml'\nnarrow = 'none'\ncounts = 5000\n";
+  const std::string naive = "exclude = [{broad = 'naive'}]\n";
+  const auto blocks = [&](const std::string& groups, const std::string& option) {
+    folder_.write("groups.toml", groups);
+    const Ran ran = run_program("run " + path("groups.toml") + " --dry-run" + option);
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    return (ran.text.find("block 0:") != std::string::npos) +
+           (ran.text.find("block 1:") != std::string::npos);
+  };
+  EXPECT_EQ(blocks(few + many, ""), 2);
+  EXPECT_EQ(blocks(few + many, " --quick"), 1);
+  EXPECT_EQ(blocks(few + many + naive, " --quick"), 1);
+  EXPECT_EQ(blocks(few + naive + many, " --quick"), 2);
+  EXPECT_EQ(blocks(few + many + "limit = true\n", " --quick"), 2);
+  EXPECT_EQ(blocks(few + many + "rebuild = true\n", " --quick"), 2);
+}
+
 TEST_F(RunCommand, TakesASceneInsteadOfACampaign) {
   const Ran ran = run_program(
       "--isa baseline run --scene " + path("s.toml") +

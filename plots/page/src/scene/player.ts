@@ -29,6 +29,7 @@ export async function player(recording: Recording, slices: Slices): Promise<Play
   if (!stage) {
     // A browser whose drawing process ended starts another one, and draws nothing in three dimensions until then.
     await new Promise((resolve) => setTimeout(resolve, milliseconds_until_again));
+    await slices.begin("making a picture");
     stage = Stage.open(label, false);
   }
   if (!stage) {

@@ -50,7 +50,7 @@ function agreed(folder: Folder, approximate: string[]): string[] {
         `${count_text(total(rows, "wrong") - by_design)} on the wrong side of contact, ` +
         `${count_text(total(rows, "failed"))} gave up, ${count_text(total(rows, "unanswered"))} without an answer.` +
         (by_design > 0
-          ? ` Of ${distinct(loose.map(name)).join(", ")}, approximate by design, ${count_text(by_design)} more are on the wrong side.`
+          ? ` Of ${distinct(loose.map(name)).join(", ")}, approximate by design, ${count_text(by_design)} more on the wrong side.`
           : ""),
     ];
   });

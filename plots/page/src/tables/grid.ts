@@ -58,6 +58,7 @@ export function file_grid(table: Table, options: Placed): HTMLElement {
   // Both ends of an interval stand behind the number that it is of.
   const ends = new Map<number, [number, number]>();
   for (const column of all_columns) {
+    if (constant.has(column)) continue;
     const [low, high] = ["low", "high"].map((end) => table.columns.indexOf(`${table.columns[column]}_${end}`));
     if (low! >= 0 && high! >= 0) ends.set(column, [low!, high!]);
   }
