@@ -182,8 +182,7 @@ void columns(Row& row, Visit visit) {
   };
   other("peer", row.peer, "The fastest library that is right.");
   other("bullet_or_fcl", row.bullet_or_fcl, "The fastest of Bullet and FCL.");
-  interval_columns("over_limit", row.over_limit, "Time of ours over that of `limit`.",
-                   visit);
+  interval_columns("over_limit", row.over_limit, "Time of ours over that of `limit`.", visit);
   visit("bytes_a_body", row.bytes_a_body, "Memory of ours for each body, bytes.");
   visit("base_threads", record::nonzero(row.base_threads),
         "The fewest threads, of our speed-up; empty where there is none.");
