@@ -29,21 +29,6 @@ using FclShapes = std::tuple<fcl::Sphere<S>, fcl::Capsule<S>, fcl::Box<S>, fcl::
 template <class S, ShapeKind kind>
 using FclShape = std::tuple_element_t<static_cast<std::size_t>(kind), FclShapes<S>>;
 
-// Calls visit<kind>() with the kind as a constant.
-template <class Visit>
-void with_kind(ShapeKind kind, Visit&& visit) {
-  switch (kind) {
-    case ShapeKind::sphere: return visit.template operator()<ShapeKind::sphere>();
-    case ShapeKind::capsule: return visit.template operator()<ShapeKind::capsule>();
-    case ShapeKind::box: return visit.template operator()<ShapeKind::box>();
-    case ShapeKind::cylinder: return visit.template operator()<ShapeKind::cylinder>();
-    case ShapeKind::cone: return visit.template operator()<ShapeKind::cone>();
-    case ShapeKind::ellipsoid: return visit.template operator()<ShapeKind::ellipsoid>();
-    case ShapeKind::hull: return visit.template operator()<ShapeKind::hull>();
-    case ShapeKind::halfspace: return visit.template operator()<ShapeKind::halfspace>();
-  }
-}
-
 template <class S>
 std::unique_ptr<fcl::Convex<S>> make_convex(const Hull& hull) {
   auto vertices = std::make_shared<std::vector<Vec3<S>>>();
