@@ -32,7 +32,7 @@ TOUCHSTONE_TARGET void note_starts(const LaneState<Scalar>& state, unsigned lane
 
 // Gives the next tetrahedra to free lanes, and writes the places of pairs with unusable tetrahedra
 // to `left`. Returns the new number of places in `left`.
-template <class Scalar, bool scans>
+template <class Scalar>
 TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
                                               const LaneGoal<Scalar>& goal, std::size_t& next,
                                               LaneState<Scalar>& state,
@@ -45,7 +45,7 @@ TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
     if ((expanders.active >> lane & 1) != 0) continue;
     const DepthStart<Scalar>& start = starts.all[next++];
     // The pair was loaded before, so it loads again.
-    load_pair<Scalar, scans>(table, goal, start.place, lane, state);
+    load_pair<Scalar>(table, goal, start.place, lane, state);
     for (std::size_t k = 0; k < 4; ++k) {
       expanders.points[k][lane] = start.points[k];
       expanders.on_a[k][lane] = start.on_a[k];
@@ -54,7 +54,7 @@ TOUCHSTONE_TARGET std::size_t start_expanders(const PairTable<Scalar>& table,
     expanders.surfaces[lane].start();
     fresh |= 1u << lane;
   }
-  turn_lanes<Scalar, scans>(goal, state);
+  turn_lanes<Scalar>(goal, state);
 
   Vector3<Scalar> corners[4];
   for (std::size_t k = 0; k < 4; ++k) corners[k] = from_quads<Scalar>(expanders.points[k]);
@@ -164,7 +164,7 @@ TOUCHSTONE_TARGET void write_depth(const PairTable<Scalar>& table, const LaneGoa
 }
 
 // Takes one step of every lane: writes the answer if the bounds meet, otherwise adds a vertex.
-template <class Scalar, bool scans>
+template <class Scalar>
 TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
                                         const LaneGoal<Scalar>& goal, LaneState<Scalar>& state,
                                         Expanders<Scalar>& expanders, std::size_t left) {
@@ -174,9 +174,8 @@ TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
   const unsigned active = expanders.active;
   const NearestFaces<Scalar> nearest = nearest_faces<Scalar>(expanders);
   const Vector3<Scalar>& normal = nearest.normal;
-  const Corner<Scalar> corner =
-      find_corner<Scalar, scans>(goal, state, {-normal.x, -normal.y, -normal.z},
-                                 Lanes::broadcast(1), active);
+  const Corner<Scalar> corner = find_corner<Scalar>(goal, state, {-normal.x, -normal.y, -normal.z},
+                                                    Lanes::broadcast(1), active);
   const Vector height = dot<Scalar>(normal, corner.point);
   const Vector open = height - nearest.distance, tolerance = Lanes::broadcast(goal.tolerance);
   unsigned going = active & Lanes::to_bits(Lanes::less(tolerance, open));
@@ -213,7 +212,7 @@ TOUCHSTONE_TARGET std::size_t expand_on(const PairTable<Scalar>& table,
 
 // Finds the depths of the stored pairs and writes the places of those that stay open to `left`.
 // Returns the new number of places in `left`.
-template <class Scalar, bool scans>
+template <class Scalar>
 TOUCHSTONE_TARGET std::size_t expand_lanes(const PairTable<Scalar>& table,
                                            const LaneGoal<Scalar>& goal, std::size_t left) {
   constexpr std::size_t width = Simd<Scalar>::width;
@@ -225,10 +224,10 @@ TOUCHSTONE_TARGET std::size_t expand_lanes(const PairTable<Scalar>& table,
   std::memset(expanders.points, 0, 4 * sizeof expanders.points[0]);
   std::size_t next = 0;
   while (next < goal.starts->count || expanders.active != 0) {
-    left = start_expanders<Scalar, scans>(table, goal, next, state, expanders, left);
+    left = start_expanders<Scalar>(table, goal, next, state, expanders, left);
     const int enough = next < goal.starts->count ? static_cast<int>(width * 5 / 8) : 1;
     do {
-      left = expand_on<Scalar, scans>(table, goal, state, expanders, left);
+      left = expand_on<Scalar>(table, goal, state, expanders, left);
     } while (std::popcount(expanders.active) >= enough && expanders.active != 0);
   }
   return left;

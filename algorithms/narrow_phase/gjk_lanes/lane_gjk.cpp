@@ -50,6 +50,8 @@ struct LaneGoal {
   Scalar tolerance;
   Scalar most_iterations;
   std::int32_t most_expansions;  // including the iterations of GJK
+
+  bool scans() const { return scans_a || scans_b; }
 };
 
 // The number of pairs whose depths are computed together.

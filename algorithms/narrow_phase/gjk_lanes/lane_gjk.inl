@@ -64,7 +64,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void end_inside(const LaneGoal<Scalar>& goal
 }
 
 // Takes one step of every active lane.
-template <class Scalar, bool points, bool scans>
+template <class Scalar, bool points>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void iterate(const LaneGoal<Scalar>& goal,
                                                  LaneState<Scalar>& state) {
   using Lanes = Simd<Scalar>;
@@ -72,7 +72,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void iterate(const LaneGoal<Scalar>& goal,
   const Vector zero = Lanes::broadcast(0), margin = Lanes::broadcast(lane_rounding<Scalar>);
   const Vector3<Scalar> search = state.search;
   const Corner<Scalar> corner =
-      find_corner<Scalar, scans>(goal, state, search, state.length, state.active);
+      find_corner<Scalar>(goal, state, search, state.length, state.active);
 
   const Vector radius = state.radius_a + state.radius_b;
   const Vector plane = dot<Scalar>(search, corner.point);
@@ -152,7 +152,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void iterate(const LaneGoal<Scalar>& goal,
   state.active &= stays;
 }
 
-template <class Scalar, bool points, bool scans>
+template <class Scalar, bool points>
 TOUCHSTONE_TARGET std::size_t run_lanes(const PairTable<Scalar>& table,
                                         const LaneGoal<Scalar>& goal,
                                         std::span<const std::uint32_t> queue, std::size_t left) {
@@ -163,11 +163,11 @@ TOUCHSTONE_TARGET std::size_t run_lanes(const PairTable<Scalar>& table,
   std::ranges::fill(state.corners_b, goal.some_vertices);
   std::size_t next = 0;
   while (next < queue.size() || state.active != 0) {
-    left = start_lanes<Scalar, scans>(table, goal, queue, next, state, left);
+    left = start_lanes<Scalar>(table, goal, queue, next, state, left);
     // Lanes are filled together, which costs about the same for a few as for all.
     const int enough = next < queue.size() ? static_cast<int>(width * 3 / 8) : 1;
     do {
-      iterate<Scalar, points, scans>(goal, state);
+      iterate<Scalar, points>(goal, state);
     } while (std::popcount(state.active) >= enough && state.active != 0);
     left = answer_lanes<Scalar, points>(table, goal, state, left);
   }
@@ -176,28 +176,18 @@ TOUCHSTONE_TARGET std::size_t run_lanes(const PairTable<Scalar>& table,
 
 // Computes depths for one part of the queue after the other, so that the stored tetrahedra stay in
 // the cache.
-template <class Scalar, bool scans>
+template <class Scalar>
 TOUCHSTONE_TARGET std::size_t find_depths(const PairTable<Scalar>& table,
                                           const LaneGoal<Scalar>& goal,
                                           std::span<const std::uint32_t> queue, std::size_t left) {
   while (!queue.empty()) {
     const std::size_t count = std::min(queue.size(), goal.starts->all.size());
     goal.starts->count = 0;
-    left = run_lanes<Scalar, true, scans>(table, goal, queue.first(count), left);
-    if (goal.starts->count != 0) left = expand_lanes<Scalar, scans>(table, goal, left);
+    left = run_lanes<Scalar, true>(table, goal, queue.first(count), left);
+    if (goal.starts->count != 0) left = expand_lanes<Scalar>(table, goal, left);
     queue = queue.subspan(count);
   }
   return left;
-}
-
-template <class Scalar, bool scans>
-TOUCHSTONE_TARGET std::size_t run_and_answer(const PairTable<Scalar>& table,
-                                             const LaneGoal<Scalar>& goal,
-                                             std::span<const std::uint32_t> queue,
-                                             std::size_t left) {
-  if (goal.starts != nullptr) return find_depths<Scalar, scans>(table, goal, queue, left);
-  return goal.distances ? run_lanes<Scalar, true, scans>(table, goal, queue, left)
-                        : run_lanes<Scalar, false, scans>(table, goal, queue, left);
 }
 
 template <class Scalar>
@@ -205,6 +195,7 @@ TOUCHSTONE_TARGET std::size_t run_all_lanes(const PairTable<Scalar>& table,
                                             const LaneGoal<Scalar>& goal,
                                             std::span<const std::uint32_t> queue,
                                             std::size_t left) {
-  return goal.scans_a || goal.scans_b ? run_and_answer<Scalar, true>(table, goal, queue, left)
-                                      : run_and_answer<Scalar, false>(table, goal, queue, left);
+  if (goal.starts != nullptr) return find_depths<Scalar>(table, goal, queue, left);
+  return goal.distances ? run_lanes<Scalar, true>(table, goal, queue, left)
+                        : run_lanes<Scalar, false>(table, goal, queue, left);
 }

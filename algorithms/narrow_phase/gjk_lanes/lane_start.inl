@@ -33,7 +33,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool balls_apart(const Quad<double>& offset,
 enum class Loaded : std::uint8_t { iterates, apart, left };
 
 // Stores the pair's numbers in the lane, scaled by a unit as in SupportPair.
-template <class Scalar, bool scans>
+template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& table,
                                                      const LaneGoal<Scalar>& goal,
                                                      std::uint32_t place, std::size_t lane,
@@ -81,11 +81,9 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Loaded load_pair(const PairTable<Scalar>& ta
   std::memcpy(&state.extents_b[lane], b.extents, sizeof(Quad<Scalar>));
   state.corners_a[lane] = a.vertices;
   state.corners_b[lane] = b.vertices;
-  if constexpr (scans) {
-    // The vertices are used after the other lanes are loaded.
-    if (goal.scans_a) prefetch_hull(a.scanned_hull());
-    if (goal.scans_b) prefetch_hull(b.scanned_hull());
-  }
+  // The vertices are used after the other lanes are loaded.
+  if (goal.scans_a) prefetch_hull(a.scanned_hull());
+  if (goal.scans_b) prefetch_hull(b.scanned_hull());
   state.hulls_a[lane] = a.scanned_hull();
   state.hulls_b[lane] = b.scanned_hull();
   return Loaded::iterates;
@@ -167,7 +165,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void prefetch_bodies(const PairTable<Scalar>
 
 // Rotates the loaded bodies in all lanes; lanes that were active before get the same values again.
 // Returns the lanes whose matrices are usable, as bits.
-template <class Scalar, bool scans>
+template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned turn_lanes(const LaneGoal<Scalar>& goal,
                                                         LaneState<Scalar>& state) {
   using Vector = typename Simd<Scalar>::Vector;
@@ -185,13 +183,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned turn_lanes(const LaneGoal<Scalar>& 
   state.centre_b = {poses[4][1], poses[4][2], poses[4][3]};
   state.radius_a = sizes[1];
   state.radius_b = sizes[3];
-  if (scans && goal.scans_a) {
+  if (goal.scans_a) {
     std::ranges::copy(columns_a, state.a);
   } else {
     turn_core<Scalar>(columns_a, state.extents_a, goal.halves_a, state.corners_a, goal.vertices_a,
                       nullptr, state.a);
   }
-  if (scans && goal.scans_b) {
+  if (goal.scans_b) {
     std::ranges::copy(columns_b, state.b);
   } else {
     turn_core<Scalar>(columns_b, state.extents_b, goal.halves_b, state.corners_b, goal.vertices_b,
@@ -202,7 +200,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned turn_lanes(const LaneGoal<Scalar>& 
 
 // Gives the next pairs of the queue to free lanes and writes the places of pairs that the lanes
 // cannot take to `left`. Returns the new number of places in `left`.
-template <class Scalar, bool scans>
+template <class Scalar>
 TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
                                           const LaneGoal<Scalar>& goal,
                                           std::span<const std::uint32_t> queue, std::size_t& next,
@@ -214,9 +212,10 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
   for (std::size_t lane = 0; lane < Lanes::width && next < queue.size(); ++lane) {
     if ((state.active >> lane & 1) != 0) continue;
     while (next < queue.size()) {
-      if (scans && next + ahead < queue.size()) prefetch_bodies(table, goal, queue[next + ahead]);
+      if (goal.scans() && next + ahead < queue.size())
+        prefetch_bodies(table, goal, queue[next + ahead]);
       const std::uint32_t place = queue[next++];
-      const Loaded loaded = load_pair<Scalar, scans>(table, goal, place, lane, state);
+      const Loaded loaded = load_pair<Scalar>(table, goal, place, lane, state);
       if (loaded == Loaded::iterates) {
         fresh |= 1u << lane;
         break;
@@ -228,7 +227,7 @@ TOUCHSTONE_TARGET std::size_t start_lanes(const PairTable<Scalar>& table,
       }
     }
   }
-  const unsigned usable = turn_lanes<Scalar, scans>(goal, state);
+  const unsigned usable = turn_lanes<Scalar>(goal, state);
   const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
   state.doubtful |= fresh & ~usable;
   state.active |= fresh & usable;

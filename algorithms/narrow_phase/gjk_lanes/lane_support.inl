@@ -104,7 +104,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector3<Scalar> furthest_round_point(
 
 // The point on the core of a that is least far along `search`, the point on b that is furthest, and
 // their difference. `length` is that of `search`.
-template <class Scalar, bool scans>
+template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Scalar>& goal,
                                                                const LaneState<Scalar>& state,
                                                                const Vector3<Scalar>& search,
@@ -115,7 +115,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Sc
   const Vector zero = Lanes::broadcast(0);
   Corner<Scalar> corner;
   Vector3<Scalar> on_b;
-  if (scans && goal.scans_a) {
+  if (goal.scans_a) {
     corner.on_a =
         scanned_vertex<Scalar>(state.hulls_a, state.a, {-search.x, -search.y, -search.z}, active);
   } else if (goal.vertices_a != 0) {
@@ -127,7 +127,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Corner<Scalar> find_corner(const LaneGoal<Sc
     corner.on_a =
         furthest_corner<Scalar, false>(state.a, goal.halves_a, {zero, zero, zero}, search);
   }
-  if (scans && goal.scans_b) {
+  if (goal.scans_b) {
     on_b = scanned_vertex<Scalar>(state.hulls_b, state.b, search, active);
     on_b = moved<Scalar>(on_b, Lanes::broadcast(1), state.centre_b);
   } else if (goal.vertices_b != 0) {
