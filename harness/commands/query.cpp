@@ -313,7 +313,10 @@ void save_proofs(const std::string& file, const kinds::Proving& proving, double 
   if (!report.failures.empty() && report.failures.back().in_setup) {
     throw base::InputError(file, 0, "no more can be proven: " + report.failures.back().reason());
   }
-  print_failures("certificates", report.failures, proving.label);
+  std::vector<kinds::AskFailure> lost;
+  for (const process::IsolationFailure& failure : report.failures)
+    lost.push_back({proving.label(failure.item), failure.reason()});
+  print_lost("certificates", lost);
   output.close();
   fmt::print("{} certificates in {}\n", report.lines, file);
 }

@@ -14,6 +14,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
+#include "harness/files/packed_files.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
 #include "harness/stats/cell_results.h"
@@ -104,7 +105,7 @@ int reproduce(const ReproduceOptions& options) {
   const std::filesystem::path reference =
       options.reference.empty() ? std::filesystem::path(record::source_folder) / "results/reference"
                                 : std::filesystem::path(options.reference);
-  if (!std::ifstream(reference / "ratios.csv")) {
+  if (!std::filesystem::exists(files::row_file(reference / "ratios.csv"))) {
     throw base::InputError((reference / "ratios.csv").string(), 0,
                            "cannot be read; expected a reference with tables (`touchstone show "
                            "REFERENCE --tables` writes them)");

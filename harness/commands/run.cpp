@@ -210,10 +210,8 @@ record::FolderStart start_of(const RunOptions& options) {
 
 // Returns the names that the user wrote out in a list of algorithms, without words such as `ours`.
 void add_named(const std::string& list, std::vector<std::string>& names) {
-  constexpr auto words =
-      std::to_array<std::string_view>({"all", "ours", "peers", "libraries", "oracle", "none"});
   for (std::string& name : kinds::split_names(list)) {
-    if (std::ranges::find(words, name) == words.end()) names.push_back(std::move(name));
+    if (!kinds::is_group(name)) names.push_back(std::move(name));
   }
 }
 

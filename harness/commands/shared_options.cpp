@@ -17,14 +17,6 @@
 
 namespace touchstone::commands {
 
-const Arguments::Choices<Task>& task_choices() {
-  static const Arguments::Choices<Task> choices = {{"intersect", Task::intersect},
-                                                   {"distance", Task::distance},
-                                                   {"penetration", Task::penetration},
-                                                   {"signed", Task::signed_distance}};
-  return choices;
-}
-
 const Arguments::Choices<record::QueryTask>& run_task_choices() {
   static const Arguments::Choices<record::QueryTask> choices = [] {
     Arguments::Choices<record::QueryTask> all;
@@ -141,18 +133,6 @@ int end_interrupted() {
              "touchstone: interrupted; what was done until then is kept, and --resume goes on with "
              "it\n");
   return exit_bad_request;
-}
-
-void print_failures(std::string_view algorithm, std::span<const process::IsolationFailure> failures,
-                    const std::function<std::string(std::size_t)>& name_of) {
-  constexpr std::size_t shown = 5;
-  for (const process::IsolationFailure& failure :
-       failures.first(std::min(shown, failures.size()))) {
-    fmt::print(stderr, "{}, {}: {}\n", algorithm, name_of(failure.item), failure.reason());
-  }
-  if (failures.size() > shown) {
-    fmt::print(stderr, "{}: {} more failures\n", algorithm, failures.size() - shown);
-  }
 }
 
 }  // namespace touchstone::commands

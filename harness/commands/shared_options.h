@@ -18,10 +18,9 @@
 
 namespace touchstone::commands {
 
-const Arguments::Choices<Task>& task_choices();
 // Those of a trade, whose error is that of a distance or of a depth.
 const Arguments::Choices<Task>& trade_task_choices();
-// These, and that of concave phases.
+// Those of every narrow phase, and of concave phases.
 const Arguments::Choices<record::QueryTask>& run_task_choices();
 const Arguments::Choices<Precision>& scalar_choices();
 const Arguments::Choices<scene::BoxKind>& box_choices();
@@ -65,10 +64,5 @@ void expect_not_given(std::initializer_list<Option> options, const std::string& 
 
 // Adds --plan and --shard.
 Option add_shard(Arguments& command, std::string& plan, std::int64_t& shard);
-
-// Prints a line for each of the first failures of an algorithm, and the number of the others;
-// `name_of` names an item.
-void print_failures(std::string_view algorithm, std::span<const process::IsolationFailure> failures,
-                    const std::function<std::string(std::size_t)>& name_of);
 
 }  // namespace touchstone::commands

@@ -179,7 +179,7 @@ std::string scene_lines(const std::string& scene, const Duels& duels) {
   std::string text = line_of(
       scene, duels,
       led.empty() ? "" : fmt::format("LIBRARIES LEAD IN {} OF {}", led.size(), duels.size()));
-  if (!led.empty()) text += "  libraries lead  " + list_text(led) + "\n";
+  if (!led.empty()) text += "  libraries lead  " + list_text(led, 3) + "\n";
   std::vector<std::string> questions, parts;
   for (const Duel* duel : duels) {
     if (std::ranges::find(questions, duel->question()) != questions.end()) continue;
@@ -335,20 +335,18 @@ FastText how_fast(const Results& results, const Tables& tables, const ReportSett
 std::string doubts_text(const Doubts& doubts) {
   std::vector<std::string> words;
   if (!doubts.suspect.empty()) {
-    words.push_back(fmt::format("{} of {} (an algorithm differed from its own copy): {}",
-                                doubts.suspect.size(), doubts.inputs,
-                                list_text(doubts.suspect, 3)));
+    words.push_back(fmt::format("{} (an algorithm differed from its own copy): {}",
+                                doubts.suspect.size(), list_text(doubts.suspect, 1)));
   }
   if (doubts.few_squares > 0) {
-    words.push_back(fmt::format(
-        "{} of {} have fewer than six undisturbed squares: no ratio, counted as unclear",
-        doubts.few_squares, doubts.inputs));
+    words.push_back(fmt::format("{} (fewer than six undisturbed squares)", doubts.few_squares));
   }
   if (doubts.none_of_ours > 0) {
-    words.push_back(fmt::format("in {} of {} none of ours is right, counted as unclear",
-                                doubts.none_of_ours, doubts.inputs));
+    words.push_back(fmt::format("{} (none of ours is right)", doubts.none_of_ours));
   }
-  return words.empty() ? "" : fmt::format("NOT TRUSTED  {}\n", fmt::join(words, "\n             "));
+  return words.empty() ? ""
+                       : fmt::format("NOT TRUSTED of {}, counted as unclear: {}\n", doubts.inputs,
+                                     fmt::join(words, "; "));
 }
 
 }  // namespace touchstone::stats

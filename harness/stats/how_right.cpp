@@ -35,13 +35,13 @@ struct Fault {
     if (wrong > 0) {
       words.push_back(fmt::format("{} of {}", count_text(wrong), count_text(queries)));
       std::vector<std::string> more_words;
-      if (!std::isnan(metres)) more_words.push_back("by up to " + metres_text(metres));
+      if (!std::isnan(metres)) more_words.push_back("by " + metres_text(metres));
       more_words.push_back(list_text(scenes, 2));
       words.back() += fmt::format(" ({})", fmt::join(more_words, "; "));
     }
     if (!std::isnan(error)) {
-      words.push_back(is_bound ? fmt::format("depths up to {:.2g} of the size too large", error)
-                               : fmt::format("a number off by up to {:.2g} of the size", error));
+      words.push_back(
+          fmt::format("{} {:.2g} of the size", is_bound ? "too deep by" : "off by", error));
     }
     if (words.empty() && !what.empty())
       words.push_back(what + (more > 0 ? fmt::format(", and {} more", more) : ""));
@@ -123,16 +123,17 @@ std::string how_right(const Results& results, const Tables& tables,
     }
   }
   std::string text = fmt::format(
-      "HOW RIGHT answers on the wrong side of contact, of those asked; numbers off by more than "
-      "{:g} of the pair's size{}\n",
+      "HOW RIGHT answers on the wrong side of contact, of those asked (the worst); numbers off by "
+      "more than {:g} of the pair's size{}\n",
       tables.depth_error, stopped ? "; of what was checked before the stop" : "");
-  const auto add = [&](std::string_view who, const std::vector<std::string>& words) {
-    text += fmt::format("  {:<12}{}\n", who, words.empty() ? "none" : lines_text(words, 14));
+  const auto add = [&](std::string_view who, const std::vector<std::string>& words,
+                       const std::string& more = "") {
+    text +=
+        fmt::format("  {:<12}{}{}\n", who, words.empty() ? "none" : lines_text(words, 14, 3), more);
   };
   if (libraries) add("libraries", of_libraries);
-  add("ours", of_ours);
+  add("ours", of_ours, unanswered.empty() ? "" : "; without an answer: " + list_text(unanswered));
   if (!by_design.empty()) add("by design", by_design);
-  if (!unanswered.empty()) add("unanswered", unanswered);
   if (!slow.empty()) add("over time", slow);
   return text;
 }

@@ -59,17 +59,16 @@ std::string head_text(const Results& results, const Disturbed& disturbed, Noise 
 std::string files_text(const std::filesystem::path& folder) {
   const std::string word = base::shell_word(folder.string());
   std::string text = fmt::format(
-      "Tables    {}\nAgain     touchstone show {}\nPage      touchstone report {} --out "
-      "page.html\n",
-      (folder / "tables.md").string(), word, word);
+      "Again     touchstone show {}    Tables {}\nPage      touchstone report {} --out page.html",
+      word, (folder / "tables.md").string(), word);
   std::error_code error;
   const std::filesystem::path cases = folder / "reproductions";
   const auto count = std::filesystem::is_directory(cases, error)
                          ? std::ranges::distance(std::filesystem::directory_iterator(cases, error))
                          : 0;
   if (count > 0)
-    text += fmt::format("Wrong     {} ({} case{})\n", cases.string(), count, count == 1 ? "" : "s");
-  return text;
+    text += fmt::format("    Wrong {} ({} case{})", cases.string(), count, count == 1 ? "" : "s");
+  return text + "\n";
 }
 
 }  // namespace
@@ -82,7 +81,6 @@ std::string summary(const Results& results, const Tables& tables,
   if (setting.stopped) {
     text += fmt::format("Stopped in {}. Go on: {}\n", setting.stopped->at, setting.stopped->go_on);
   }
-  text += "\n";
   const FastText fast = how_fast(results, tables, setting);
   const bool too_noisy = setting.noise == Noise::left_out && 2 * share.noisy > share.samples;
   if (too_noisy) {
@@ -99,7 +97,6 @@ std::string summary(const Results& results, const Tables& tables,
       !right.empty()) {
     text += right;
     if (!too_noisy) text += doubts_text(fast.doubts);
-    text += "\n";
   }
   return text + files_text(folder);
 }

@@ -59,8 +59,9 @@ std::string list_text(const std::vector<std::string>& words, std::size_t most) {
   return text;
 }
 
-std::string lines_text(const std::vector<std::string>& words, std::size_t indent) {
-  constexpr std::size_t width = 120;
+std::string lines_text(const std::vector<std::string>& words, std::size_t indent,
+                       std::size_t most) {
+  constexpr std::size_t width = 140;
   std::string text;
   std::size_t column = indent;
   const auto add = [&](const std::string& word) {
@@ -73,7 +74,7 @@ std::string lines_text(const std::vector<std::string>& words, std::size_t indent
     text += word;
     column += word.size();
   };
-  const std::size_t shown = std::min(most_named, words.size());
+  const std::size_t shown = std::min(most, words.size());
   for (const std::string& word : std::span(words).first(shown)) add(word);
   if (words.size() > shown) add(fmt::format("{} more", words.size() - shown));
   return text;

@@ -23,7 +23,8 @@ std::string short_label(std::string label);
 // Joins the first words, and counts the others.
 std::string list_text(const std::vector<std::string>& words, std::size_t most = most_named);
 // Does the same in lines of the page's width that are indented.
-std::string lines_text(const std::vector<std::string>& words, std::size_t indent);
+std::string lines_text(const std::vector<std::string>& words, std::size_t indent,
+                       std::size_t most = most_named);
 // Returns the two most frequent names.
 std::string most_often(const std::vector<std::string>& names);
 

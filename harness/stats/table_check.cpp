@@ -8,6 +8,7 @@
 
 #include "harness/base/table.h"
 #include "harness/files/csv.h"
+#include "harness/files/packed_files.h"
 #include "harness/files/text_file.h"
 #include "harness/stats/comparison.h"
 #include "harness/stats/tables/tables.h"
@@ -75,9 +76,9 @@ TableCheck check_tables(const std::filesystem::path& reference, const Results& h
   for (std::string& line : changed_answers(stated, here, Compared::answers_and_work, names)) {
     check.changed.push_back(std::move(line));
   }
-  const std::filesystem::path bands = reference / "library_ratios.csv";
-  for (CheckedCell& cell :
-       read_bands(std::filesystem::exists(bands) ? bands : reference / "ratios.csv")) {
+  const std::filesystem::path bands = files::row_file(reference / "library_ratios.csv");
+  for (CheckedCell& cell : read_bands(
+           std::filesystem::exists(bands) ? bands : files::row_file(reference / "ratios.csv"))) {
     const SampleSet* const set = here.find(cell.key);
     const Contestant* const contestant = set == nullptr ? nullptr : set->find(cell.label);
     const Contestant* const baseline = set == nullptr ? nullptr : set->find(cell.baseline);

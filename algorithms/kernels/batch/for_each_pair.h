@@ -40,10 +40,13 @@ void for_each_bounded_pair(Task task, const Batch& batch,
     for_each_pair(batch.pairs, shapes, ahead, far_too, solve_pair);
     return;
   }
-  const auto solve =
-      batch.kind_a == batch.kind_b ? solve_halfspaces<Scalar> : solve_halfspace<Scalar>;
-  for_each_pair(batch.pairs, shapes, ahead, far_too,
-                [&](std::size_t i, const auto&... bodies) { solve(bodies..., task, outcomes[i]); });
+  if (batch.kind_a != ShapeKind::halfspace) {
+    solve_halfspace_batch<Scalar>(shapes, batch.pairs, task, outcomes);
+    return;
+  }
+  for_each_pair(batch.pairs, shapes, ahead, far_too, [&](std::size_t i, const auto&... bodies) {
+    solve_halfspaces(bodies..., task, outcomes[i]);
+  });
 }
 
 // Does the same for pair i alone, and prefetches nothing.

@@ -6,6 +6,9 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, section 5.2.3 (a box and a half-space).
 #pragma once
 
+#include <span>
+
+#include "algorithms/core/body_pairs.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/kernels/minkowski/support.h"
 
@@ -18,6 +21,11 @@ template <class Scalar>
 void solve_halfspace(const SupportShape<Scalar>& a, const Pose& pose_a,
                      const SupportShape<Scalar>& b, const Pose& pose_b, Task task,
                      Outcome& outcome);
+
+// Solves such pairs. What depends on the plane alone is computed once while the same half-space follows.
+template <class Scalar>
+void solve_halfspace_batch(std::span<const SupportShape<Scalar>> shapes, const BodyPairs& pairs,
+                           Task task, std::span<Outcome> outcomes);
 
 // Solves a pair of half-spaces. They overlap unless their normals are opposite, up to rounding;
 // then the distance is the gap, or minus the thickness of the common slab. Other pairs overlap

@@ -39,15 +39,16 @@ class PolytopeShapes {
   template <class Batch, class SolvePair>
   void solve(Task task, const Batch& batch, std::span<Outcome> outcomes,
              const SolvePair& solve_pair) const {
+    if (batch.kind_b == ShapeKind::halfspace) {
+      solve_halfspace_batch<Scalar>(support_shapes_, batch.pairs, task, outcomes);
+      return;
+    }
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const std::uint32_t first = batch.pairs.first[i], second = batch.pairs.second[i];
       const std::uint32_t a = batch.pairs.shape_of[first], b = batch.pairs.shape_of[second];
-      const Pose &pose_a = batch.pairs.poses[first], &pose_b = batch.pairs.poses[second];
-      if (batch.kind_b == ShapeKind::halfspace) {
-        solve_halfspace(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, outcomes[i]);
-      } else {
-        solve_pair(PolytopePair<Scalar>(polytopes_[a], pose_a, polytopes_[b], pose_b), i);
-      }
+      solve_pair(PolytopePair<Scalar>(polytopes_[a], batch.pairs.poses[first], polytopes_[b],
+                                      batch.pairs.poses[second]),
+                 i);
     }
   }
 

@@ -85,6 +85,9 @@ class ClosedForm final : public NarrowPhase {
     const BodyPairs& pairs = batch.pairs;
     const bool boxes = batch.kind_a == ShapeKind::box && batch.kind_b == ShapeKind::box;
     if (boxes && task == Task::signed_distance) return signed_.solve(*this, batch, outcomes);
+    if (batch.kind_b == ShapeKind::halfspace) {
+      return solve_halfspace_batch<Scalar>(support_shapes_, pairs, task, outcomes);
+    }
     const bool round = RoundPairLanes<Scalar>::takes(batch.kind_a, batch.kind_b);
     if (!boxes && !round) {
       for (std::size_t i = 0; i < batch.size(); ++i) solve_one(task, batch, i, outcomes[i]);

@@ -111,7 +111,7 @@ class MeshBatch final : public Batch {
     if (asked.empty()) return grades;
     const auto solved =
         process::isolated_answers<MeshAnswer>(asked.size(), batch_limits(time_limit), [&] {
-          const std::shared_ptr<ConcavePhase> phase = entry.make(settings(contestant.scalar));
+          const std::shared_ptr<ConcavePhase> phase = make_phase(entry, contestant.scalar, false);
           phase->bind(all.bodies);
           return [&, phase](std::size_t i) { return answer_of(*phase, task, all, i); };
         });
@@ -134,12 +134,6 @@ class MeshBatch final : public Batch {
   }
 
  private:
-  static ConcaveSettings settings(Precision scalar) {
-    return {.scalar = scalar,
-            .mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make,
-            .narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); }};
-  }
-
   // The bits that an algorithm in this precision is given.
   static ConcaveCase given(const ConcaveCase& c, Precision scalar) {
     return scalar == Precision::float64 ? c : rounded_case(c);
@@ -180,7 +174,8 @@ class MeshBatch final : public Batch {
         std::swap(c.pose_a, c.pose_b);
       }
       pair.add(c);
-      const auto exact = registry::find<ConcaveEntry>("exact")->make(settings(Precision::float64));
+      const auto exact =
+          make_phase(*registry::find<ConcaveEntry>("exact"), Precision::float64, false);
       exact->bind(pair.bodies);
       known[i] =
           answer_of(*exact, distance ? ConcaveTask::distance : ConcaveTask::contacts, pair, 0);

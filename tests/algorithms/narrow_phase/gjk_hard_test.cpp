@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -355,6 +356,67 @@ TEST(GjkHalfspace, AgainstEveryKind) {
         }
       }
     }
+  }
+}
+
+// Bodies that rest on level ground: rounding decides the side, and the bounds must know that.
+TEST(GjkHalfspace, BodiesAtRestAreOnTheSideThatIsProven) {
+  const auto gjk = make_gjk();
+  Random random(11);
+  std::map<Answer, int> seen;
+  for (int i = 0; i < 6000; ++i) {
+    Shape shape = i % 4 == 0   ? make_sphere(random.uniform(0.1, 2))
+                  : i % 4 == 1 ? make_capsule(random.uniform(0.1, 1), random.uniform(0.1, 2))
+                               : Shape{};
+    if (i % 4 > 1) {
+      // Some are scanned, some in floats first, some by a cube map; the origin may be outside.
+      const int counts[] = {8, 32, 120, 300};
+      const Vec3d shift = i % 3 == 0 ? Vec3d(0, 0, 0) : random.vector(3);
+      std::vector<Vec3d> points;
+      for (int k = 0; k < counts[i / 4 % 4]; ++k) points.push_back(random.direction() + shift);
+      shape = make_hull(points);
+    }
+    const Mat3d turn = random.rotation();
+    const auto row = [&](const Vec3d& x) {
+      long double sum = 0;
+      for (int k = 0; k < 3; ++k) sum += static_cast<long double>(turn(2, k)) * x[k];
+      return sum;
+    };
+    long double lowest = 0;
+    if (shape.kind == ShapeKind::hull) {
+      lowest = std::numeric_limits<long double>::infinity();
+      for (const Vec3d& x : shape.hull->vertices) lowest = std::min(lowest, row(x));
+    } else {
+      if (shape.kind == ShapeKind::capsule) lowest = -std::abs(row({0, 0, shape.half_length}));
+      lowest -= shape.radius;
+    }
+    const double offset = random.uniform(-2, 2), angle = random.uniform(0, 6);
+    Mat3d about_z = Mat3d::Identity();
+    about_z.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),
+        std::cos(angle);
+    const Body ground = {make_halfspace({0, 0, 1}, offset), {about_z, random.vector(5)}};
+    const double gaps[] = {0, 1e-15, -1e-15, 3e-14, -3e-14, 1e-3, -1e-3};
+    const long double level = static_cast<long double>(ground.pose.translation.z()) + offset;
+    const Vec3d place{random.uniform(-9, 9), random.uniform(-9, 9),
+                      static_cast<double>(level + gaps[i % 7] - lowest)};
+    const long double height = static_cast<long double>(place.z()) + lowest - level;
+    const Task task = i % 5 < 2 ? Task::distance : i % 5 < 4 ? Task::penetration : Task::intersect;
+    const Outcome outcome = query(*gjk, task, at(shape, place, turn), ground);
+    ++seen[outcome.answer];
+    const long double error = 1e-17;  // of the long doubles here
+    ASSERT_EQ(outcome.status, Status::ok) << i;
+    ASSERT_FALSE(outcome.answer == Answer::separated && height < -error) << i;
+    ASSERT_FALSE(outcome.answer == Answer::overlapping && height > error) << i;
+    if (outcome.answer != Answer::touching && !asks_for_number(task, outcome.answer)) continue;
+    ASSERT_LE(outcome.lower - error, height) << i;
+    ASSERT_GE(outcome.upper + error, height) << i;
+    ASSERT_LE(outcome.upper - outcome.lower, 1e-12) << i;
+    if (task == Task::intersect) continue;
+    ASSERT_NEAR(outcome.witness_b.z(), static_cast<double>(level), 1e-13) << i;
+    ASSERT_NEAR(outcome.witness_a.z() - outcome.witness_b.z(), outcome.distance, 1e-13) << i;
+  }
+  for (const Answer answer : {Answer::separated, Answer::overlapping, Answer::touching}) {
+    EXPECT_GT(seen[answer], 500) << to_string(answer);
   }
 }
 

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +17,7 @@
 #include <thread>
 
 #include "algorithms/core/executor/executor.h"
+#include "tests/harness/process/no_child_is_left.h"
 
 namespace touchstone {
 namespace {
@@ -49,11 +49,6 @@ process::IsolationFailure failure_of(const std::function<void()>& harm, double s
   EXPECT_FALSE(worker.alive());
   EXPECT_FALSE(worker.ask({.frame = 4}, 10)) << "dead is dead";
   return worker.failure();
-}
-
-void expect_no_child_is_left() {
-  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
-  EXPECT_EQ(errno, ECHILD);
 }
 
 TEST(Worker, ACrashIsTold) {
