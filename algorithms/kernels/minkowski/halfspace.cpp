@@ -89,7 +89,7 @@ class PlainPlane {
     const double square =
         normal_[0] * normal_[0] + normal_[1] * normal_[1] + normal_[2] * normal_[2];
     usable_ = std::abs(square - 1) < nearly_one && determinant > 0.5;
-    inverse_ = 1.5 - 0.5 * square;  // the root of a number next to one
+    inverse_ = 1.5 - 0.5 * square;  // of the root of a number next to one
     height_ = b.offset * determinant;
     most_height_ = std::abs(b.offset) * most_determinant;
   }

@@ -3,6 +3,9 @@
 //
 // The plane is the image of the points under the matrix, whatever it is: its normal is the inverse
 // transpose times n.
+// In double, points, segments, boxes and hulls are solved in doubles with a bound on their rounding. Where the bound is
+// too wide (tilted planes, centres far away, matrices that are no rotations), and for all other bodies, long doubles
+// give the plane's height.
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, section 5.2.3 (a box and a half-space).
 #pragma once
 
