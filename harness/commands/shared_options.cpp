@@ -119,8 +119,8 @@ void keep_summary(const std::filesystem::path& folder, const std::string& text) 
                file.string());
     return;
   }
+  own.note({file});  // first, so that a kill leaves no file that nobody owns
   files::write_text(file, text);
-  own.note({file});
 }
 
 void print_summary(const std::filesystem::path& folder, const std::string& text) {

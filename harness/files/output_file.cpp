@@ -28,6 +28,13 @@ bool is_device(const std::filesystem::path& file) {
          !std::filesystem::is_directory(status);
 }
 
+constexpr const char* temporary_ending = ".tmp";
+
+std::filesystem::path temporary_name(std::filesystem::path file, int attempt) {
+  file += fmt::format(".{}-{}{}", getpid(), attempt, temporary_ending);
+  return file;
+}
+
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   if (a.empty() || b.empty() || is_device(a)) return false;
   if (a.lexically_normal().string().starts_with("/dev/")) return false;
@@ -66,6 +73,16 @@ void check_outputs(std::span<const NamedFile> inputs, std::span<const NamedFile>
   }
 }
 
+std::filesystem::path target_of_temporary(const std::filesystem::path& file) {
+  if (file.extension() != temporary_ending) return {};
+  const std::filesystem::path numbered = file.parent_path() / file.stem();
+  const std::string numbers = numbered.extension().string();
+  int process = 0, attempt = 0, end = 0;
+  if (std::sscanf(numbers.c_str(), ".%d-%d%n", &process, &attempt, &end) != 2) return {};
+  if (static_cast<std::size_t>(end) != numbers.size()) return {};
+  return numbered.parent_path() / numbered.stem();
+}
+
 OutputFile::OutputFile(std::filesystem::path file, Keep keep) : file_(std::move(file)) {
   if (file_.empty()) throw base::InputError("the output's name is empty; expected a file");
   std::error_code ignored;
@@ -85,8 +102,7 @@ OutputFile::OutputFile(std::filesystem::path file, Keep keep) : file_(std::move(
       if (!ignored) file_ = target;
     }
     for (int attempt = 0; descriptor < 0; ++attempt) {
-      temporary_ = file_;
-      temporary_ += fmt::format(".{}-{}.tmp", getpid(), attempt);
+      temporary_ = temporary_name(file_, attempt);
       descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor < 0 && errno != EEXIST) break;
     }

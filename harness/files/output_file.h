@@ -32,6 +32,10 @@ inline void check_outputs(std::initializer_list<NamedFile> inputs,
                 std::span(outputs.begin(), outputs.size()));
 }
 
+// Returns the file of which this is the temporary name while OutputFile writes it, FILE.PROCESS-N.tmp,
+// and which a kill leaves behind; an empty path if it is no such name.
+std::filesystem::path target_of_temporary(const std::filesystem::path& file);
+
 // Writes a file under a temporary name beside it and renames it in `close`, so that readers see a
 // whole file or none. Without `close` (after an exception) nothing is left. Every failure to write,
 // such as a full disk, is an InputError with the file's name. A device or a pipe is written

@@ -17,6 +17,7 @@
 #include "harness/base/hash.h"
 #include "harness/base/input_file.h"
 #include "harness/base/names.h"
+#include "harness/files/output_file.h"
 #include "harness/files/text_file.h"
 
 namespace touchstone::record {
@@ -62,6 +63,11 @@ OwnFiles::OwnFiles(fs::path folder) : folder_(std::move(folder)) {
     }
     names_.insert(line);
   }
+}
+
+bool OwnFiles::has_leftover(const std::string& name) const {
+  const std::string target = files::target_of_temporary(name).generic_string();
+  return target == list_name || has(target);
 }
 
 bool OwnFiles::is_behind_link(const fs::path& name) const {

@@ -32,6 +32,8 @@ class OwnFiles {
   explicit OwnFiles(std::filesystem::path folder);
 
   bool has(const std::string& name) const { return names_.contains(name); }
+  // Returns true for what a kill left of a listed file, or of the list, while it was written.
+  bool has_leftover(const std::string& name) const;
 
   // Returns FOLDER/SUBFOLDER/NAME, where the name is that of base::safe_file_name, followed by "-2",
   // "-3", ... if a file there already has it with any ending. Makes the subfolder; "" is the folder

@@ -21,6 +21,7 @@
 
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
+#include "harness/files/output_file.h"
 #include "harness/files/packed_files.h"
 #include "harness/files/text_file.h"
 #include "harness/record/folder_files.h"
@@ -111,10 +112,13 @@ void ResultFolder::lock() {
 // Removes the partial files that a kill left while they were written whole.
 void ResultFolder::remove_leftovers() const {
   std::error_code error;
+  const OwnFiles own(plan_.folder);
   for (const auto& entry : std::filesystem::directory_iterator(plan_.folder, error)) {
     const std::string name = entry.path().filename().string();
-    const bool ours = name.starts_with("machine.csv.") || name.starts_with("progress.csv.");
-    if (ours && name.ends_with(".tmp")) std::filesystem::remove(entry.path(), error);
+    const std::string target = files::target_of_temporary(name).string();
+    if (own.has_leftover(name) || target == "machine.csv" || target == "progress.csv" ||
+        std::ranges::find(plan_.made, target) != plan_.made.end())
+      std::filesystem::remove(entry.path(), error);
   }
 }
 

@@ -63,9 +63,8 @@ class RunMerge {
     merged.ours_wrong = record::ours_are_wrong(departures_);
     if (rows_ > most_rows_of_tables) {
       merged.text = fmt::format(
-          "{} rows: their tables have to fit into memory, and are not made here; `touchstone "
-          "tables` "
-          "on the folder makes them\n",
+          "{} rows: their tables have to fit into memory, and are not made here; `touchstone show "
+          "DIR --tables` makes them\n",
           rows_);
     } else {
       merged.text = make_tables(published);
@@ -115,7 +114,7 @@ class RunMerge {
 // Writes raw.csv, departures.csv, reproductions/, blocks.csv and machine.csv into the folder, and the
 // tables: of each machine in machines/NAME if there are several, with across.csv and
 // across.md, the range of their ratios. Rows are streamed; the tables of more than
-// `most_rows_of_tables` rows, which would have to fit into memory, are left to the command `tables`.
+// `most_rows_of_tables` rows, which would have to fit into memory, are left to `show --tables`.
 Merged merge_runs(std::span<const DonePart> parts, const stats::Published& published,
                   const MergeFolder& folder) {
   RunMerge merge(folder);

@@ -214,9 +214,9 @@ class Merge {
     if (fs::is_directory(out_, error)) {
       const record::OwnFiles old(out_);
       for (const fs::path& file : files_in(out_)) {
-        const fs::path name = file.lexically_relative(out_);
-        if (!old.has(name.generic_string()) && !fs::exists(temporary_ / name, error))
-          others.push_back(name);
+        const std::string name = file.lexically_relative(out_).generic_string();
+        if (!old.has(name) && !old.has_leftover(name) && !fs::exists(temporary_ / name, error))
+          others.emplace_back(name);
       }
     }
     record::OwnFiles(temporary_).note(results);

@@ -9,6 +9,8 @@
 
 #include <csignal>
 #include <functional>
+#include <set>
+#include <string>
 
 #include "harness/record/folder_files.h"
 #include "tests/harness/input_fault.h"
@@ -208,6 +210,23 @@ TEST_F(ResultFolderTest, FilesOfOthersStay) {
   EXPECT_EQ(folder_.read("out/reproductions/mine.jsonl"), "mine");
   EXPECT_EQ(folder_.read("out/notes.txt"), "mine");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/reproductions/mine-2.jsonl"));
+}
+
+TEST_F(ResultFolderTest, HalfWrittenFilesOfItsOwnAreRemoved) {
+  record::ResultFolder(plan(record::FolderStart::overwrite)).finish();
+  record::OwnFiles(folder_.path() / "out").note({folder_.path() / "out/summary.txt"});
+  const std::set<std::string> ours = {"machine.csv.12-0.tmp", "progress.csv.3-1.tmp",
+                                      "files.txt.12-0.tmp", "tables.md.4-0.tmp",
+                                      "summary.txt.5-0.tmp"};
+  const std::set<std::string> of_others = {"notes.txt.12-0.tmp", "files.txt.tmp",
+                                           "files.txt.12-.tmp", "files.txt.12-0x.tmp"};
+  for (const std::string& name : ours) folder_.write("out/" + name, "half");
+  for (const std::string& name : of_others) folder_.write("out/" + name, "mine");
+  record::ResultFolder(plan(record::FolderStart::resume)).finish();
+  for (const std::string& name : ours)
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / name)) << name;
+  for (const std::string& name : of_others)
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out" / name)) << name;
 }
 
 TEST_F(ResultFolderTest, RowsOfOthersAreNotOverwritten) {

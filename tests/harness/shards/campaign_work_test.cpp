@@ -98,6 +98,12 @@ TEST_F(CampaignShards, HaveTheRowsOfOneRun) {
   }
   EXPECT_THAT(folder_.read("out/tables.md"), HasSubstr("sweep-one-axis"));
   EXPECT_THAT(result.merged.text, HasSubstr(out().string() + "/tables.md"));
+  // A merge again keeps what others put there, and not what a kill left of the list of its own files.
+  folder_.write("out/notes.txt", "of somebody");
+  folder_.write("out/files.txt.7-0.tmp", "half");
+  merge();
+  EXPECT_EQ(folder_.read("out/notes.txt"), "of somebody");
+  EXPECT_FALSE(std::filesystem::exists(out() / "files.txt.7-0.tmp"));
 }
 
 TEST_F(CampaignShards, BlocksThatDifferInThreadsAreInOneShard) {
