@@ -9,7 +9,6 @@
 
 #include "harness/campaign/check_pass.h"
 #include "harness/files/cases.h"
-#include "harness/files/concave_cases.h"
 #include "harness/files/text_file.h"
 #include "harness/measure/narrow_sampler.h"
 

@@ -1,10 +1,12 @@
 // Cases: pairs of bodies as JSON, one object per line.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/motion.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/shape.h"
@@ -20,6 +22,15 @@ struct Case {
 // A pair of bodies that move from time 0 to 1; they rest if nothing else is said.
 struct CastCase : Case {
   Motion motion_a, motion_b;
+};
+
+// A pair of bodies that need not be convex.
+struct ConcaveCase {
+  std::string id;
+  ConcaveBody a, b;
+  Pose pose_a, pose_b;
+  bool is_convex = true;  // neither body is a mesh or a compound
+  std::int64_t line = 0;  // of the file; 0: it is from none
 };
 
 // Reads a file of cases. Throws InputError with file, line, key and the expected value for:
@@ -38,5 +49,8 @@ std::vector<CastCase> read_cast_cases(const std::filesystem::path& file);
 std::string to_json(const Case& c);
 // The same for read_cast_cases.
 std::string to_json(const CastCase& c);
+// One line, without the line break, that read_concave_cases (concave_cases.h) turns into the same bits. A compound's parts
+// are written one by one, each within compounds of its own where the product of its poses was rounded.
+std::string to_json(const ConcaveCase& c);
 
 }  // namespace touchstone::files

@@ -38,13 +38,13 @@ struct AboutInverse {
 
 AboutInverse about_inverse(const Mat3d& m) {
   AboutInverse found = {m.transpose(), 0};
-  const double length = skew_of(m), rounding = greatest_row_of_turn * greatest_row_of_turn * u;
-  found.skew = length + 8 * rounding;
+  const double length = skew_of(m), cut_off = greatest_row_of_turn * greatest_row_of_turn * u;
+  found.skew = length + 8 * cut_off;
   if (found.skew <= least_skew) return found;
   if (length <= greatest_step) {
     found.matrix -= (found.matrix * m - Mat3d::Identity()) * found.matrix;
     // Rounded are `off`, its product with the transpose, and the difference.
-    found.skew = 1.1 * length * length + 16 * rounding;
+    found.skew = 1.1 * length * length + 16 * cut_off;
     return found;
   }
   found.matrix = m.inverse();

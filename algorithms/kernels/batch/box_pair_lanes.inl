@@ -152,6 +152,13 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, 
   signs.overlapping |= signs.open() & ~open & Lanes::to_bits(Lanes::less(seen.face_gap, -error));
 }
 
+// The same, compiled once for the tasks in which other work takes most of the time.
+template <class Scalar>
+TOUCHSTONE_TARGET [[gnu::noinline]] void judge_apart(const BoxProducts<Scalar>& seen,
+                                                     Signs& signs) {
+  judge<Scalar>(seen, signs);
+}
+
 // The lanes that may be decided: their sizes keep products within the scalar's range, and their
 // matrices are orthonormal. In `far` lanes even balls around the boxes are disjoint.
 struct Usable {
@@ -268,12 +275,16 @@ TOUCHSTONE_TARGET std::size_t solve_groups(const PairTable<Scalar> table, std::s
       // Boxes that no face separates are likely to overlap, and the least depth proves that too.
       // The order of the proofs does not change the answer.
       const bool depth_first = depth && signs.apart == 0 && (!resting || signs.near != 0);
-      if (!depth_first) judge<Scalar>(seen, signs);
+      if constexpr (task == Task::intersect) {
+        judge<Scalar>(seen, signs);
+      } else if (!depth_first) {
+        judge_apart<Scalar>(seen, signs);
+      }
       LeastAxis<Scalar> least{};
       if constexpr (depth) {
         if (depth_first || signs.overlapping != 0) least = least_axis<Scalar>(seen, signs);
       }
-      if (depth_first) judge<Scalar>(seen, signs);
+      if (depth_first) judge_apart<Scalar>(seen, signs);
       if (depth && signs.overlapping != 0) {
         signs.overlapping =
             write_depths<Scalar>(table, begin, boxes, seen, least, signs.overlapping);

@@ -19,7 +19,7 @@ namespace {
 // All rounding errors of a gap along an axis, as a part of the sum of all lengths: fewer than 64
 // operations, none with a result greater than that sum, of matrices and lengths that were rounded.
 template <class Scalar>
-constexpr Scalar rounding = 64 * std::numeric_limits<Scalar>::epsilon() / 2;
+constexpr Scalar gap_rounding = 64 * std::numeric_limits<Scalar>::epsilon() / 2;
 // Sizes whose products neither underflow nor, inverted, overflow.
 template <class Scalar>
 constexpr Scalar least_size = sizeof(Scalar) == 8 ? Scalar(1e-140) : Scalar(1e-15f);
@@ -49,7 +49,7 @@ Answer apart_along_edges(const Shape& a, const Pose& pose_a, const Shape& b, con
   const double size = offset.lpNorm<1>() + a.half_extents.sum() + b.half_extents.sum();
   const bool apart =
       std::abs(axis.dot(offset)) - extent(a, pose_a, axis) - extent(b, pose_b, axis) >
-      4 * rounding<double> * size;
+      4 * gap_rounding<double> * size;
   return apart ? Answer::separated : Answer::unknown;
 }
 

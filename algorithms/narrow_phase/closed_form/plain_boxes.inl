@@ -88,7 +88,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Answer meet_in(const Shape& shape_a, const P
   // The sum of all lengths.
   const Vector lengths = absolute(offset) + half + other;
   const Scalar size = lengths[0] + lengths[1] + lengths[2];
-  const Scalar error = rounding<Scalar> * size;
+  const Scalar error = gap_rounding<Scalar> * size;
   const Vector face_gaps = greater(gaps, swapped(gaps));
   const Vector off = greater(absolute(squares - 1), skews);
   const Scalar skew = greatest(greater(off, swapped(off)));

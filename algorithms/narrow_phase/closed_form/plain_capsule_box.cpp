@@ -26,7 +26,7 @@ struct CapsuleBox {
 };
 
 // The way out of the box that is least deep; the normal is from the segment to the box.
-struct LeastDepth {
+struct CapsuleDepth {
   double depth = std::numeric_limits<double>::infinity();
   Three normal{};
   int edge = -1;           // the axis of the edge of the box that it crosses; -1 for a face
@@ -34,8 +34,8 @@ struct LeastDepth {
 };
 
 // A face is taken before an edge that is as deep up to `error`, since it has better points.
-LeastDepth least_depth(const Three& q, const Three& d, const Vec3d& h, double error) {
-  LeastDepth least;
+CapsuleDepth least_depth(const Three& q, const Three& d, const Vec3d& h, double error) {
+  CapsuleDepth least;
   for (int k = 0; k < 3; ++k) {
     const double depth = h[k] + std::abs(d[k]) - std::abs(q[k]);
     if (!(depth < least.depth)) continue;
@@ -63,7 +63,7 @@ LeastDepth least_depth(const Three& q, const Three& d, const Vec3d& h, double er
 
 // The s in [-1, 1] at which the segment is deepest, such that the point which is `depth` further back is
 // on the box; NaN if rounding finds none.
-double deepest(const LeastDepth& least, const Three& q, const Three& d, const Vec3d& h,
+double deepest(const CapsuleDepth& least, const Three& q, const Three& d, const Vec3d& h,
                double error) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double along = 0;
@@ -104,7 +104,7 @@ bool solve_depth(const CapsuleBox& pair, double radius, const Pose& pose_a, cons
   const double error = (rounding + 8 * greatest_skew) * size;
   if (!(size > 1e-120 && size < 1e120) || !is_rotation(pair.x, pair.y, pair.z)) return false;
   const Three q = three(pair.q), d = three(pair.d);
-  const LeastDepth least = least_depth(q, d, h, error);
+  const CapsuleDepth least = least_depth(q, d, h, error);
   if (!(least.depth > error)) return false;
   const double s = deepest(least, q, d, h, error);
   if (!(std::abs(s) <= 1)) return false;
