@@ -56,7 +56,7 @@ def draw(tables):
         axes.tick_params(axis="y", length=0)
         axes.grid(True, axis="x")
         axes.set_title(task, loc="left")
-        axes.text(1.02, 1.02, "right", transform=axes.transAxes, fontsize=6.2)
+        axes.text(1.02, 1.02, "right side", transform=axes.transAxes, fontsize=6.2)
         axes.set_xlabel("share of the queries")
     handles = [Line2D([], [], linestyle="", **style) for style in KINDS.values()]
     common.legend_below(figure, handles)

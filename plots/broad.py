@@ -63,7 +63,7 @@ def draw(tables):
     return figure
 
 
-draw.needs = "broad phases of ours and of libraries at several numbers of bodies, as in datasets/campaigns/broad.toml"
+draw.needs = "broad phases of ours and of libraries at several numbers of bodies, at one thread, as in datasets/campaigns/broad.toml"
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@
 #include "algorithms/core/isa.h"
 #include "harness/base/error.h"
 #include "harness/base/names.h"
+#include "harness/base/nearest_name.h"
 #include "harness/commands/commands.h"
 #include "harness/process/standard_output.h"
 #include "harness/record/machine.h"
@@ -127,6 +128,10 @@ int run_command(std::vector<std::string> words, std::initializer_list<OwnCommand
                                          new_line(*command, {std::next(command), words.end()})));
     }
     if (own_command(*command) == own.end()) hand_over();
+  } else if (!words.empty() && !words.front().starts_with('-')) {
+    std::vector<std::string_view> names;
+    for (const CommandRow& row : all_commands) names.push_back(row.name);
+    throw base::InputError(base::unknown_name("command", words.front(), names));
   }
 
   CommandLine line("Touchstone: a benchmark of collision detection that checks what it measures");

@@ -133,7 +133,7 @@ campaign::Campaign campaign_of(const RunOptions& options) {
   return campaign;
 }
 
-constexpr int quick_frames = 4;
+constexpr int quick_frames = 2;
 constexpr std::int64_t quick_bodies = 1000;  // of a generator
 
 // True if all that a group without narrow phases measures of a scene is measured by an earlier group too.

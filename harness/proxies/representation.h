@@ -13,7 +13,7 @@
 namespace touchstone::proxies {
 
 enum class Form : std::uint8_t {
-  as_given,      // the scene's shape; for a mesh its convex hull
+  as_given,      // the scene's shape
   sphere,        // least enclosing ball; inner: the greatest inside, found by search for a mesh
   box,           // along the body's own axes
   oriented_box,  // along fitted axes

@@ -174,7 +174,11 @@ std::vector<ListedCase> cases_of(const ResultsRequest& request, files::OrderedJs
 
 std::vector<fs::path> folders_with_tables(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
-    throw base::InputError(folder.string() + ": expected a folder of results");
+    throw base::InputError(folder.string() +
+                           (folder.extension() == ".jsonl"
+                                ? ": holds single pairs; `touchstone query FILE --page OUT.html` "
+                                  "draws them"
+                                : ": expected a folder of results"));
   }
   std::vector<fs::path> folders;
   if (!tables_in(folder).empty()) {

@@ -119,7 +119,9 @@ Scene import_scene(const std::filesystem::path& file, const MeshUses& uses) {
   if (file.extension() == ".aabbs") return load_recording(file);
   throw base::InputError(
       file.string(), 0,
-      "unknown kind of file; expected .toml, .json (rigid-ipc) or .aabbs (Broadmark)");
+      file.extension() == ".jsonl"
+          ? "holds single pairs; `touchstone query FILE --page OUT.html` draws them"
+          : "unknown kind of file; expected .toml, .json (rigid-ipc) or .aabbs (Broadmark)");
 }
 
 // Sets the number of frames; for a recording it keeps the first ones.

@@ -58,10 +58,11 @@ std::string head_text(const Results& results, const Disturbed& disturbed, Noise 
 
 std::string files_text(const std::filesystem::path& folder) {
   const std::string word = base::shell_word(folder.string());
-  std::string text = fmt::format(
-      "Again     touchstone show {}    Tables {}\nPage      touchstone report {} --out page.html",
-      word, (folder / "tables.md").string(), word);
   std::error_code error;
+  const std::filesystem::path tables = folder / "tables.md";
+  std::string text = fmt::format("Again     touchstone show {}", word);
+  if (std::filesystem::exists(tables, error)) text += "    Tables " + tables.string();
+  text += fmt::format("\nPage      touchstone report {} --out page.html", word);
   const std::filesystem::path cases = folder / "reproductions";
   const auto count = std::filesystem::is_directory(cases, error)
                          ? std::ranges::distance(std::filesystem::directory_iterator(cases, error))

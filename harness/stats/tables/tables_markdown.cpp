@@ -252,7 +252,7 @@ std::string tables_markdown(const Tables& tables) {
   all +=
       "\nTimes are medians over squares, intervals those of the sign test at 95 %. A ratio is the "
       "median of\npaired log ratios. `-`: "
-      "fewer than six undisturbed squares, too few to tell.\n\n";
+      "fewer than six undisturbed squares, too few to tell (four in tables of the best).\n\n";
   if (!tables.winners.empty() || tables.undecided > 0) {
     all += "## Winner against runner-up\n\n";
     base::Table table({"input", "winner", "runner-up", "runner-up / winner", "95 % interval"}, 3);

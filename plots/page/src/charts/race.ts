@@ -30,7 +30,7 @@ export const ratio_axis = (ticks: number[]): Plot.Markish[] => [
 ];
 
 const name_of = ({ algorithm, origin }: Standing): string =>
-  origin === "limit" ? `${algorithm} (lower bound)` : algorithm;
+  origin === "limit" ? `${algorithm} (sort, gather, write)` : algorithm;
 
 function tip_of(each: Standing, inputs: number): string {
   const lines = [name_of(each), `${times_text(each.relative)} (${interval_text(each.low, each.high)})`];

@@ -67,7 +67,7 @@ function agreement(folder: Folder): HTMLElement | null {
   return part(
     `${folder.anchor}-answers`,
     "Answers against the exact ones",
-    quiet("Errors are parts of the pair's size."),
+    quiet("Right and wrong are sides of contact. Errors are parts of the pair's size."),
     ...filtered(
       folder,
       "agreement.csv",
