@@ -66,7 +66,7 @@ class Launcher : public testing::Test {
     // Only what it is asked for is there when it has ended.
     write_program("bin/ninja", R"(
       folder=$2/harness
-      shift 2
+      shift 4  # -C FOLDER -j PROCESSORS
       rm -rf "$folder" && mkdir -p "$folder"
       printf '%s\n' "$@" >>"$LOG/asked"
       for target; do
