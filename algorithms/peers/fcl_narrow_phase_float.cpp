@@ -1,5 +1,9 @@
 // FCL's narrow phases in float: templates that Debian compiled for double alone, compiled here. They are
-// the entries of fcl_narrow_phase.cpp in another scalar, and take as long to compile as ten files.
+// the entries of fcl_narrow_phase.cpp in another scalar.
+// Paper:   that of fcl_narrow_phase.cpp.
+// Departs: as there; the whole program alone has it, since it takes as long to compile as ten files.
+// Fails:   as there, and within the rounding of floats.
+// Cost:    as there.
 #include "algorithms/peers/fcl_solvers.h"
 
 namespace touchstone::entries {
