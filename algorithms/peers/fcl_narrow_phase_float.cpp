@@ -1,8 +1,8 @@
-// FCL's narrow phases in float: templates that Debian compiled for double alone, compiled here. They are
-// the entries of fcl_narrow_phase.cpp in another scalar.
+// FCL's narrow phases in float. Debian compiled FCL's templates for double alone, so this file compiles
+// them. fcl_narrow_phase.cpp describes the algorithms.
 // Paper:   that of fcl_narrow_phase.cpp.
-// Departs: as there; the whole program alone has it, since it takes as long to compile as ten files.
-// Fails:   as there, and within the rounding of floats.
+// Departs: as there. The first program leaves this file out, since it takes long to compile.
+// Fails:   as there.
 // Cost:    as there.
 #include "algorithms/peers/fcl_solvers.h"
 

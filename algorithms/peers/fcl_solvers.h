@@ -1,5 +1,5 @@
-// FCL's two solvers as narrow phases, for the files that compile them: doubles, as Debian's library
-// is, and floats, which only the whole program has. fcl_narrow_phase.cpp says what they do.
+// FCL's two solvers as narrow phases. fcl_narrow_phase.cpp compiles them for double, and describes them;
+// fcl_narrow_phase_float.cpp compiles them for float.
 #pragma once
 
 #include <algorithm>

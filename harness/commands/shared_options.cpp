@@ -119,7 +119,7 @@ void keep_summary(const std::filesystem::path& folder, const std::string& text) 
                file.string());
     return;
   }
-  own.note({file});  // first, so that a kill leaves no file that nobody owns
+  own.note({file});  // The list comes first: a kill then leaves no file that is not listed.
   files::write_text(file, text);
 }
 

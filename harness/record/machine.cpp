@@ -131,7 +131,7 @@ std::string hypervisor() {
   std::memcpy(vendor, &b, 4);
   std::memcpy(vendor + 4, &c, 4);
   std::memcpy(vendor + 8, &d, 4);
-  // Vendors fill up the twelve letters: "KVMKVMKVM", "bhyve bhyve ".
+  // Vendors repeat their name to fill twelve letters: "KVMKVMKVM", "bhyve bhyve ".
   const std::string name = vendor;
   for (const char* known : {"KVM", "bhyve", "Xen", "VMware"}) {
     if (name.starts_with(known)) return known;

@@ -152,7 +152,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, 
   signs.overlapping |= signs.open() & ~open & Lanes::to_bits(Lanes::less(seen.face_gap, -error));
 }
 
-// The same, compiled once for the tasks in which other work takes most of the time.
+// Does the same, and is not inlined: the loops of distance and depth, where it is a small part of the
+// work, share one copy.
 template <class Scalar>
 TOUCHSTONE_TARGET [[gnu::noinline]] void judge_apart(const BoxProducts<Scalar>& seen,
                                                      Signs& signs) {
