@@ -2,8 +2,8 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, sections 5.1.3 (point and box), 5.1.9
 //          (segments), 5.2.3 (half-space); Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996
 //          (boxes).
-// Steps:   1. Solve batches of box pairs, and of spheres and capsules with each other or with a
-//             box, in vector lanes, one pair per lane (kernels/batch/box_pair_lanes,
+// Steps:   1. Solve batches of box pairs, of spheres and capsules with each other, and of spheres with a
+//             box, cylinder or cone, in vector lanes, one pair per lane (kernels/batch/box_pair_lanes,
 //             round_pair_lanes).
 //          2. Solve the pairs that the lanes leave open, and all other batches, one by one.
 //          3. Half-space: one support point of the other body (kernels/minkowski/halfspace).
@@ -15,22 +15,25 @@
 //          5. Sphere or capsule: reduce it to a point or segment with a radius, and find the
 //             closest points of the two segments, or of the point and the box; a point inside a box
 //             leaves through the nearest face.
-//          6. Subtract the radii from the signed gap of the cores, and compare it with its rounding
+//          6. Sphere and cylinder or cone: the nearest place on the outline of the half plane through the
+//             point and the axis, a rectangle or a triangle. Within rounding of contact, GJK.
+//          7. Subtract the radii from the signed gap of the cores, and compare it with its rounding
 //             error.
-//          7. Capsule and box: the zero of the slope of the distance along the segment, which is
+//          8. Capsule and box: the zero of the slope of the distance along the segment, which is
 //             linear between eight places; where the segment meets the box, the least depth along
 //             six axes (closed_form/plain_capsule_box). What that leaves open goes to GJK and EPA
 //             (kernels/gjk/gjk_query).
-//          A pair that is asked for alone skips the lanes: spheres and capsules with each other or
-//          with a box take the nearest points of their cores and a plane between them, in double
-//          whatever the scalar (closed_form/plain_pair), and the verdict of boxes takes the fifteen
+//          A pair that is asked for alone skips the lanes: spheres with all but ellipsoids and hulls, and
+//          capsules with capsules and boxes, take the nearest points of their cores and a plane between them,
+//          in double whatever the scalar (closed_form/plain_pair), and the verdict of boxes takes the fifteen
 //          axes in one vector each (closed_form/plain_boxes), their depth the same axes
 //          (closed_form/plain_box_depth), boxes that rest the face that they touch
 //          (closed_form/plain_box_rest). What these leave open goes to step 1 or 2.
 // Departs: if two cores meet, or nearly so, the normal is made orthogonal to the segments in whose
 //          interior they meet, so that the depth stays exact. A box keeps its matrix as given: the
 //          inverse takes a point into its frame.
-// Answers: sphere, capsule or box with one of these, any bounded shape with a half-space: all tasks.
+// Answers: sphere, capsule or box with one of these, sphere with cylinder or cone, any bounded shape with a
+//          half-space: all tasks.
 //          Alone, a pair beyond the margin is answered before a root is taken. Within rounding of
 //          contact the answer is `touching` with bounds on the signed distance, at most 2.9e-14
 //          (double) or 1.6e-5 (float) of the pair's unit apart (kernels/minkowski/resolution).
@@ -126,6 +129,7 @@ class ClosedForm final : public NarrowPhase {
       return;
     }
     if (solve_plain_pair(task, a, pose_a, b, pose_b, outcome, margin_)) return;
+    if (is_turned(batch.kind_b)) return NarrowPhase::solve_alone(task, batch, i, outcome);
     solve_one(task, batch, i, outcome);
   }
 
@@ -144,9 +148,15 @@ class ClosedForm final : public NarrowPhase {
       if (plain_capsule_box_(task, shapes_[a], pose_a, shapes_[b], pose_b, outcome, margin_))
         return;
       gjk_.solve(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, nullptr, outcome);
+    } else if (is_turned(batch.kind_b)) {
+      gjk_.solve(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, nullptr, outcome);
     } else {
       solve_round(shapes_[a], pose_a, shapes_[b], pose_b, task, outcome);
     }
+  }
+
+  static bool is_turned(ShapeKind kind) {
+    return kind == ShapeKind::cylinder || kind == ShapeKind::cone;
   }
 
   static void solve_boxes(const PolytopePair<Scalar>& pair, Task task, Outcome& outcome) {
@@ -239,7 +249,7 @@ class ClosedForm final : public NarrowPhase {
 
 bool takes(ShapeKind a, ShapeKind b, Task) {
   if (b == ShapeKind::halfspace) return a != ShapeKind::halfspace;
-  return b <= ShapeKind::box;
+  return b <= (a == ShapeKind::sphere ? ShapeKind::cone : ShapeKind::box);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The nearest points of points, segments and boxes. plain_core.h proves the answers.
+// The nearest points of points, segments, boxes, cylinders and cones. plain_core.h proves the answers.
 #include "algorithms/narrow_phase/closed_form/plain_pair.h"
 
 #include <algorithm>
@@ -57,6 +57,36 @@ Nearest of_point_and_box(const Vec& centre, const Mat3d& matrix, const Vec3d& ha
   return {{0, 0, 0}, point, point, dot(point, centre), extent, size};
 }
 
+// A point and the cylinder or cone around `centre`: the nearest place is in the half plane through the
+// point and the axis, in a rectangle or a triangle.
+Nearest of_point_and_turned(const Vec& centre, const Mat3d& matrix, const Shape& solid,
+                            double size) {
+  const Vec x = column(matrix, 0), y = column(matrix, 1), z = column(matrix, 2);
+  const double at_x = -dot(x, centre), at_y = -dot(y, centre), at_z = -dot(z, centre);
+  const double radius = solid.radius, half = solid.half_length;
+  const double from_axis = std::sqrt(at_x * at_x + at_y * at_y), from_rim = from_axis - radius;
+  const double from_base = at_z + half;
+  const bool cone = solid.kind == ShapeKind::cone;
+  double out = std::min(from_axis, radius), up = clamp(at_z, -half, half);
+  const bool under_base = from_base < 0 && from_rim <= 0;
+  const bool beside = from_base < 0 || 2 * half * from_rim + radius * from_base > 0;
+  if (cone && !under_base && beside) {
+    // On the slant, this part of the way from the rim to the tip.
+    const double square = radius * radius + 4 * half * half;
+    const double along = 2 * half * from_base - radius * from_rim;
+    const double part = square > 0 ? clamp(along / square, 0, 1) : 0;
+    out = (1 - part) * radius;
+    up = (2 * part - 1) * half;
+  }
+  const double inward = from_axis > out ? out / from_axis : 1;
+  const Vec point = centre + inward * at_x * x + inward * at_y * y + up * z;
+  const double along_x = dot(point, x), along_y = dot(point, y), along_z = dot(point, z);
+  const double round = radius * std::sqrt(along_x * along_x + along_y * along_y);
+  const double extent =
+      cone ? std::max(half * along_z + round, -half * along_z) : half * std::abs(along_z) + round;
+  return {{0, 0, 0}, point, point, dot(point, centre), extent, size};
+}
+
 // Whether a ball around the origin meets the box around `centre`: in the box's own axes, which must
 // be those of a rotation up to `skew`. `unknown` if they are not, or rounding leaves it open.
 Answer ball_meets_box(double radius, const Vec& centre, const Mat3d& matrix, const Vec3d& half) {
@@ -107,6 +137,12 @@ bool solve_plain_pair(Task task, const Shape& a, const Pose& pose_a, const Shape
       const double extent = b.half_extents.sum() * pose_b.rotation.cwiseAbs().maxCoeff();
       return answer(task, margin,
                     of_point_and_box(centre, pose_b.rotation, b.half_extents, size + extent),
+                    a.radius, 0, pose_a, outcome);
+    }
+    case of_kinds(ShapeKind::sphere, ShapeKind::cylinder):
+    case of_kinds(ShapeKind::sphere, ShapeKind::cone): {
+      const double extent = (2 * b.radius + b.half_length) * pose_b.rotation.cwiseAbs().maxCoeff();
+      return answer(task, margin, of_point_and_turned(centre, pose_b.rotation, b, size + extent),
                     a.radius, 0, pose_a, outcome);
     }
     case of_kinds(ShapeKind::capsule, ShapeKind::capsule): {

@@ -1,9 +1,12 @@
-// Part of closed-form: spheres and capsules with each other, or spheres with a box, one pair per
-// lane of vectors. Includes core and kernels.
+// Part of closed-form: spheres and capsules with each other, or spheres with a box, cylinder or cone, one
+// pair per lane of vectors. Includes core and kernels.
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, sections 5.1.3 (point and box), 5.1.9
 //          (segments).
 //
-// The lanes solve pairs with sizes within 1e-10 to 1e12 metres and boxes whose matrices are
+// A point's nearest place on a cylinder or cone is that on its outline in the half plane through the
+// point and the axis, a rectangle or a triangle.
+//
+// The lanes solve pairs with sizes within 1e-10 to 1e12 metres and solids whose matrices are
 // orthonormal up to rounding. They return all others, and those that they leave open, for a serial
 // test.
 #pragma once
@@ -22,12 +25,12 @@ namespace touchstone {
 template <class Scalar>
 class RoundPairLanes {
  public:
-  // Ignores shapes that are not spheres, capsules or boxes.
+  // Ignores ellipsoids, hulls and half-spaces.
   void bind(std::span<const Shape> shapes);
 
   static bool takes(ShapeKind kind_a, ShapeKind kind_b) {
-    return kind_a <= ShapeKind::capsule && kind_b <= ShapeKind::box &&
-           !(kind_a == ShapeKind::capsule && kind_b == ShapeKind::box);
+    if (kind_a == ShapeKind::sphere) return kind_b <= ShapeKind::cone;
+    return kind_a == ShapeKind::capsule && kind_b == ShapeKind::capsule;
   }
   // Solves pairs of kinds that it takes. Writes outcomes, except for the pairs whose places it
   // writes to `left`, which must have room for all. Returns the number of those.
@@ -35,7 +38,8 @@ class RoundPairLanes {
                     std::span<Outcome> outcomes, std::uint32_t* left) const;
 
  private:
-  // Four numbers per shape, metres: the half extents of a box, else radius and half length.
+  // Four numbers per shape, metres: the half extents of a box, else radius and half length (of a
+  // sphere, zero).
   std::vector<Scalar> sizes_;
 };
 

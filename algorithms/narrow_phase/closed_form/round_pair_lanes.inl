@@ -4,7 +4,7 @@
 #include "algorithms/kernels/simd/vector3.inl"
 
 // The relation of two bodies' cores: metres, world axes, relative to the centre of a. The distance,
-// negative if a point is in a box, is between `lower` and `upper` up to `error`; `gap` is the
+// negative if a point is in a solid, is between `lower` and `upper` up to `error`; `gap` is the
 // distance along the normal.
 template <class Scalar>
 struct Cores {
@@ -127,10 +127,108 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
                 Lanes::abs(dot<Scalar>(cores.normal, half_b));
 }
 
-// The relation of a point, the centre of a, and a box.
+// Where a point lies to a solid, in the solid's axes. The unit vector from the point to the nearest place of
+// the surface, if the point is outside, and from there to the point, if it is inside, is outward * scale.
 template <class Scalar>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& table,
-                                                     std::size_t begin, Cores<Scalar>& cores) {
+struct SolidGap {
+  using Vector = typename Simd<Scalar>::Vector;
+  Vector outward[3], scale;
+  Vector gap;  // the distance; inside, minus the depth
+};
+
+// The solid is a box of these half extents.
+template <class Scalar>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_from_box(const typename Simd<Scalar>::Vector at[3],
+                                                       const typename Simd<Scalar>::Vector half[3],
+                                                       SolidGap<Scalar>& solid) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  // The part outside the box, and the way out if inside.
+  Vector outside[3], inward[3];
+  Vector least = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
+  for (int k = 0; k < 3; ++k) {
+    const Vector beyond = Lanes::abs(at[k]) - half[k];
+    const Vector sign = Lanes::select(Lanes::less(at[k], zero), -one, one);
+    outside[k] = sign * Lanes::max(beyond, zero);
+    // The way out leads through the nearest face, the first of several.
+    const auto nearer = Lanes::less(least, beyond);
+    least = Lanes::max(beyond, least);
+    for (int other = 0; other < k; ++other) {
+      inward[other] = Lanes::select(nearer, zero, inward[other]);
+    }
+    inward[k] = Lanes::select(nearer, sign, zero);
+  }
+  const Vector distance =
+      Lanes::sqrt(outside[0] * outside[0] + outside[1] * outside[1] + outside[2] * outside[2]);
+  const auto is_outside = Lanes::less(zero, distance);
+  solid.scale = -one / Lanes::select(is_outside, distance, one);
+  solid.gap = Lanes::select(is_outside, distance, least);
+  for (int k = 0; k < 3; ++k) solid.outward[k] = Lanes::select(is_outside, outside[k], inward[k]);
+}
+
+// The solid is a cylinder or a cone around z: a rectangle or a triangle in the half plane through the point
+// and the axis.
+template <class Scalar, bool cone>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_from_turned(const typename Simd<Scalar>::Vector at[3],
+                                                          typename Simd<Scalar>::Vector radius,
+                                                          typename Simd<Scalar>::Vector half,
+                                                          typename Simd<Scalar>::Vector size,
+                                                          SolidGap<Scalar>& solid) {
+  using Lanes = Simd<Scalar>;
+  using Vector = typename Lanes::Vector;
+  const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  const Vector from_axis = Lanes::sqrt(at[0] * at[0] + at[1] * at[1]);
+  // Within rounding of the axis all directions are the same, and a square may have no digits left.
+  const Vector rounding = Lanes::broadcast(unit_roundoff<Scalar>) * size;
+  const auto is_off = Lanes::less(rounding, from_axis);
+  const Vector over = one / Lanes::select(is_off, from_axis, one);
+  const Vector x = Lanes::select(is_off, at[0] * over, one);
+  const Vector y = Lanes::select(is_off, at[1] * over, zero);
+  Vector out, up, length;  // `out` and `up` have this length
+  if constexpr (cone) {
+    // From the rim of the base to the tip, upwards if these are one within rounding.
+    const Vector slant = Lanes::sqrt(radius * radius + Lanes::broadcast(4) * half * half);
+    const auto is_long = Lanes::less(rounding, slant);
+    const Vector over_slant = one / Lanes::select(is_long, slant, one);
+    const Vector along_out = Lanes::select(is_long, -radius * over_slant, zero);
+    const Vector along_up = Lanes::select(is_long, Lanes::broadcast(2) * half * over_slant, one);
+    const Vector from_rim = from_axis - radius, from_base = at[2] + half, from_tip = at[2] - half;
+    const Vector side = from_rim * along_up - from_base * along_out;
+    const auto at_tip = Lanes::less(zero, from_axis * along_out + from_tip * along_up);
+    const auto at_rim = both(Lanes::less(from_rim * along_out + from_base * along_up, zero),
+                             Lanes::less(zero, from_rim));
+    const auto at_side = Lanes::less(-from_base, side);
+    const auto at_point = either(at_tip, at_rim);
+    out = Lanes::select(at_side, along_up, zero);
+    up = Lanes::select(at_side, -along_out, -one);
+    out = Lanes::select(at_rim, from_rim, Lanes::select(at_tip, from_axis, out));
+    up = Lanes::select(at_rim, from_base, Lanes::select(at_tip, from_tip, up));
+    const Vector distance = Lanes::sqrt(out * out + up * up);
+    length = Lanes::select(at_point, distance, one);
+    solid.gap = Lanes::select(at_point, distance, Lanes::max(side, -from_base));
+  } else {
+    const Vector beyond_side = from_axis - radius, beyond_end = Lanes::abs(at[2]) - half;
+    const Vector sign = Lanes::select(Lanes::less(at[2], zero), -one, one);
+    const Vector outside = Lanes::max(beyond_side, zero), above = Lanes::max(beyond_end, zero);
+    const Vector distance = Lanes::sqrt(outside * outside + above * above);
+    const auto is_outside = Lanes::less(zero, distance);
+    const auto by_side = Lanes::less(beyond_end, beyond_side);
+    out = Lanes::select(is_outside, outside, Lanes::select(by_side, one, zero));
+    up = sign * Lanes::select(is_outside, above, Lanes::select(by_side, zero, one));
+    length = Lanes::select(is_outside, distance, one);
+    solid.gap = Lanes::select(is_outside, distance, Lanes::max(beyond_side, beyond_end));
+  }
+  solid.outward[0] = out * x;
+  solid.outward[1] = out * y;
+  solid.outward[2] = up;
+  solid.scale = -one / length;
+}
+
+// The relation of a point, the centre of a, and a box, cylinder or cone.
+template <class Scalar, ShapeKind kind>
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_solid(const PairTable<Scalar>& table,
+                                                       std::size_t begin, Cores<Scalar>& cores) {
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
   constexpr std::size_t width = Lanes::width;
@@ -154,48 +252,32 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_box(const PairTable<Scalar>& ta
                                     {columns[1][2], columns[1][3], columns[2][0]}};
   const Vector3<Scalar> offset{columns[2][1], columns[2][2], columns[2][3]};
   const Vector half[3] = {columns[3][0], columns[3][1], columns[3][2]};
-  const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
+  const Vector zero = Lanes::broadcast(0);
   cores.radius_a = columns[3][3];
   cores.radius_b = zero;
   const Vector size = cores.radius_a + half[0] + half[1] + half[2] + sum_of_sizes<Scalar>(offset);
-  cores.error = DistanceError<Scalar>::box * size;
+  const Vector at[3] = {-dot<Scalar>(edges[0], offset), -dot<Scalar>(edges[1], offset),
+                        -dot<Scalar>(edges[2], offset)};
+  SolidGap<Scalar> solid;
+  if constexpr (kind == ShapeKind::box) {
+    cores.error = DistanceError<Scalar>::box * size;
+    look_from_box<Scalar>(at, half, solid);
+  } else {
+    cores.error = DistanceError<Scalar>::turned * size;
+    look_from_turned<Scalar, kind == ShapeKind::cone>(at, half[0], half[1], size, solid);
+  }
   cores.usable = sized_lanes<Scalar>(size) & orthonormal_lanes<Scalar>(edges);
-
-  // Components of a's centre along the box's edges: the part outside the box, and the way out if
-  // inside.
-  Vector outside[3], inward[3];
-  Vector least = Lanes::broadcast(-std::numeric_limits<Scalar>::infinity());
-  for (int k = 0; k < 3; ++k) {
-    const Vector at = -dot<Scalar>(edges[k], offset);
-    const Vector beyond = Lanes::abs(at) - half[k];
-    const Vector sign = Lanes::select(Lanes::less(at, zero), -one, one);
-    outside[k] = sign * Lanes::max(beyond, zero);
-    // The way out leads through the nearest face, the first of several.
-    const auto nearer = Lanes::less(least, beyond);
-    least = Lanes::max(beyond, least);
-    for (int other = 0; other < k; ++other) {
-      inward[other] = Lanes::select(nearer, zero, inward[other]);
-    }
-    inward[k] = Lanes::select(nearer, sign, zero);
-  }
-  const Vector distance =
-      Lanes::sqrt(outside[0] * outside[0] + outside[1] * outside[1] + outside[2] * outside[2]);
-  const auto is_outside = Lanes::less(zero, distance);
-  const Vector scale = -one / Lanes::select(is_outside, distance, one);
-  Vector3<Scalar> normal{zero, zero, zero};
-  for (int k = 0; k < 3; ++k) {
-    const Vector along = Lanes::select(is_outside, outside[k], inward[k]) * scale;
-    normal = moved<Scalar>(normal, along, edges[k]);
-  }
-  cores.normal = normal;
-  cores.gap = Lanes::select(is_outside, distance, least);
+  cores.normal = {zero, zero, zero};
+  for (int k = 0; k < 3; ++k)
+    cores.normal = moved<Scalar>(cores.normal, solid.outward[k] * solid.scale, edges[k]);
+  cores.gap = solid.gap;
   cores.lower = cores.gap;
   cores.upper = cores.gap;
   cores.on_a = {zero, zero, zero};
-  cores.on_b = moved<Scalar>({zero, zero, zero}, cores.gap, normal);
+  cores.on_b = moved<Scalar>({zero, zero, zero}, cores.gap, cores.normal);
 }
 
-template <class Scalar, bool long_a, bool long_b, bool box>
+template <class Scalar, ShapeKind kind_a, ShapeKind kind_b>
 TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task task) {
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
@@ -203,10 +285,11 @@ TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task ta
   std::size_t left = 0;
   for (std::size_t begin = 0; begin < table.pairs.first.size(); begin += Lanes::width) {
     Cores<Scalar> cores;
-    if constexpr (box) {
-      look_at_box<Scalar>(table, begin, cores);
+    if constexpr (kind_b < ShapeKind::box) {
+      look_at_segments<Scalar, kind_a == ShapeKind::capsule, kind_b == ShapeKind::capsule>(
+          table, begin, cores);
     } else {
-      look_at_segments<Scalar, long_a, long_b>(table, begin, cores);
+      look_at_solid<Scalar, kind_b>(table, begin, cores);
     }
     const Vector radii = cores.radius_a + cores.radius_b;
     unsigned apart = cores.usable & Lanes::to_bits(Lanes::less(cores.error, cores.lower - radii));
@@ -235,8 +318,11 @@ TOUCHSTONE_TARGET std::size_t solve_cores(const PairTable<Scalar> table, Task ta
 template <class Scalar>
 TOUCHSTONE_TARGET std::size_t solve_round(const PairTable<Scalar>& table, ShapeKind kind_a,
                                           ShapeKind kind_b, Task task) {
-  if (kind_b == ShapeKind::box) return solve_cores<Scalar, false, false, true>(table, task);
-  if (kind_a == ShapeKind::capsule) return solve_cores<Scalar, true, true, false>(table, task);
-  if (kind_b == ShapeKind::capsule) return solve_cores<Scalar, false, true, false>(table, task);
-  return solve_cores<Scalar, false, false, false>(table, task);
+  using enum ShapeKind;
+  if (kind_b == box) return solve_cores<Scalar, sphere, box>(table, task);
+  if (kind_b == cylinder) return solve_cores<Scalar, sphere, cylinder>(table, task);
+  if (kind_b == cone) return solve_cores<Scalar, sphere, cone>(table, task);
+  if (kind_a == capsule) return solve_cores<Scalar, capsule, capsule>(table, task);
+  if (kind_b == capsule) return solve_cores<Scalar, sphere, capsule>(table, task);
+  return solve_cores<Scalar, sphere, sphere>(table, task);
 }

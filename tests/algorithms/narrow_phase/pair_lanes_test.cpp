@@ -22,9 +22,11 @@ namespace {
 
 using namespace test;
 
-constexpr std::array<Kinds, 5> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sphere},
+constexpr std::array<Kinds, 7> kind_pairs = {{{ShapeKind::sphere, ShapeKind::sphere},
                                               {ShapeKind::sphere, ShapeKind::capsule},
                                               {ShapeKind::sphere, ShapeKind::box},
+                                              {ShapeKind::sphere, ShapeKind::cylinder},
+                                              {ShapeKind::sphere, ShapeKind::cone},
                                               {ShapeKind::capsule, ShapeKind::capsule},
                                               {ShapeKind::box, ShapeKind::box}}};
 
@@ -93,9 +95,9 @@ TEST(PairLanes, AreNotMisledByMatricesThatShrinkNearlyToNothing) {
 // Seen from the centre of a, in the axes of the world.
 double reach(const Shape& shape, const Pose& pose) {
   const double round = shape.kind == ShapeKind::box ? 0 : shape.radius;
-  const double straight = shape.kind == ShapeKind::box       ? shape.half_extents.norm()
-                          : shape.kind == ShapeKind::capsule ? shape.half_length
-                                                             : 0;
+  const double straight = shape.kind == ShapeKind::box      ? shape.half_extents.norm()
+                          : shape.kind == ShapeKind::sphere ? 0
+                                                            : shape.half_length;
   return round + straight * pose.rotation.norm();
 }
 
@@ -157,7 +159,10 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
                          std::to_string(truth.middle() / size / epsilon) + " epsilons of " +
                          std::to_string(size));
             if (o.status != Status::ok) {
-              ASSERT_EQ(o.answer, Answer::unknown);
+              // GJK may know the answer, and not the number.
+              if (o.answer != Answer::unknown) {
+                ASSERT_EQ(o.answer, truth.answer);
+              }
               given_up += std::abs(truth.middle()) > 200 * epsilon * size ? 1u : 0u;
             } else if (o.answer == Answer::touching) {
               ASSERT_LE(o.lower, truth.upper);
@@ -165,7 +170,7 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
             } else {
               ASSERT_EQ(o.answer, truth.answer);
             }
-            if (std::isnan(o.distance)) continue;
+            if (std::isnan(o.distance) || o.status != Status::ok) continue;
             // The rounding of the world's coordinates.
             const double place = 0x1p-50 * (pose_a.translation.norm() + size);
             // A sphere's distance to a skewed box is known between bounds.
@@ -175,7 +180,8 @@ TEST(PairLanes, HoldNoSilentErrorAgainstTheOracle) {
               ASSERT_GE(o.upper, truth.lower);
               ASSERT_LE(o.upper - o.lower, 2 * error);
             }
-            ASSERT_NEAR(o.distance, truth.middle(), error);
+            // That of a curved body is enclosed.
+            ASSERT_NEAR(o.distance, truth.middle(), error + (truth.upper - truth.lower));
             // The points of what hardly touches are those of features that meet within the error.
             if (std::abs(truth.middle()) < 5 * error) continue;
             ASSERT_NEAR(o.normal.norm(), 1, 16 * epsilon);

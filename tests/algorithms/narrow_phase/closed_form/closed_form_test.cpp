@@ -105,6 +105,49 @@ TEST(ClosedForm, SphereAndBox) {
   }
 }
 
+// In the places of the half plane where another formula holds, and at their bounds.
+TEST(ClosedForm, SphereAndCylinderOrCone) {
+  Random random(5);
+  const Shape ball = sphere(0.25);
+  for (int k = 0; k < 200; ++k) {
+    Shape solid;
+    solid.kind = k % 2 == 0 ? ShapeKind::cylinder : ShapeKind::cone;
+    solid.radius = 3;
+    solid.half_length = 2;
+    const Pose pose{random_rotation(random), 1e3 * random_direction(random)};
+    const double angle = uniform(random, 0, 6.3);
+    const auto at = [&](double out, double up) {
+      return Pose{Mat3d::Identity(), pose(Vec3d(out * std::cos(angle), out * std::sin(angle), up))};
+    };
+    const auto expect = [&](double out, double up, double distance) {
+      EXPECT_NEAR(signed_distance(ball, at(out, up), solid, pose), distance - 0.25, 1e-12)
+          << out << " " << up;
+    };
+    const double gap = std::pow(10.0, uniform(random, -9, 0));
+    // Below the base, at its rim; on the axis a hair's breadth above it.
+    expect(1.5, -2 - gap, gap);
+    expect(0, -2 - gap, gap);
+    expect(3 + 0.6 * gap, -2 - 0.8 * gap, gap);
+    expect(1e-14 * gap, -1.9, -0.1);
+    if (solid.kind == ShapeKind::cylinder) {
+      expect(3 + gap, 0.5, gap);
+      expect(1, 2 + gap, gap);
+      expect(3 + 0.6 * gap, 2 + 0.8 * gap, gap);
+      expect(3 - 0.2 * gap, 0, -0.2 * gap);
+      expect(0.5, 0.25, -1.75);
+      continue;
+    }
+    // The slant is from (3, -2) to (0, 2): its normal is (0.8, 0.6).
+    expect(1.5 + 0.8 * gap, 0.6 * gap, gap);
+    expect(3 + 0.8 * gap, -2 + 0.6 * gap, gap);
+    expect(0, 2 + gap, gap);
+    expect(0.28 * gap, 2 + 0.96 * gap, gap);
+    expect(1.5 - 0.08 * gap, -0.06 * gap, -0.1 * gap);
+    expect(0, 1, -0.6);
+    expect(0.1, -1.5, -0.5);
+  }
+}
+
 // On the ground, on slopes, near and far from the plane's origin, within rounding of contact.
 TEST(ClosedForm, BoxOnAHalfspace) {
   Random random(4);
@@ -161,6 +204,9 @@ TEST(ClosedForm, SaysExactlyWhatItTakes) {
   EXPECT_TRUE(takes(ShapeKind::sphere, ShapeKind::box, Task::distance));
   EXPECT_TRUE(takes(ShapeKind::cone, ShapeKind::halfspace, Task::distance));
   EXPECT_FALSE(takes(ShapeKind::halfspace, ShapeKind::halfspace, Task::intersect));
+  EXPECT_TRUE(takes(ShapeKind::sphere, ShapeKind::cylinder, Task::penetration));
+  EXPECT_TRUE(takes(ShapeKind::sphere, ShapeKind::cone, Task::distance));
+  EXPECT_FALSE(takes(ShapeKind::capsule, ShapeKind::cylinder, Task::distance));
   EXPECT_FALSE(takes(ShapeKind::sphere, ShapeKind::ellipsoid, Task::intersect));
 }
 

@@ -19,6 +19,8 @@ namespace {
 
 using reference::make_box;
 using reference::make_capsule;
+using reference::make_cone;
+using reference::make_cylinder;
 using reference::make_sphere;
 using reference::Random;
 
@@ -30,6 +32,8 @@ Shape shape_of(ShapeKind kind, Random& random) {
   switch (kind) {
     case ShapeKind::sphere: return make_sphere(length(random));
     case ShapeKind::capsule: return make_capsule(length(random), length(random));
+    case ShapeKind::cylinder: return make_cylinder(length(random), length(random));
+    case ShapeKind::cone: return make_cone(length(random), length(random));
     default: return make_box(length(random), length(random), length(random));
   }
 }
@@ -131,6 +135,8 @@ TEST(PlainPair, IsRightAtEveryDistance) {
   for (const auto& [kind_a, kind_b] : {std::pair{ShapeKind::sphere, ShapeKind::sphere},
                                        {ShapeKind::sphere, ShapeKind::capsule},
                                        {ShapeKind::sphere, ShapeKind::box},
+                                       {ShapeKind::sphere, ShapeKind::cylinder},
+                                       {ShapeKind::sphere, ShapeKind::cone},
                                        {ShapeKind::capsule, ShapeKind::capsule},
                                        {ShapeKind::capsule, ShapeKind::box}}) {
     for (const Task task : all_tasks) {
@@ -143,8 +149,8 @@ TEST(PlainPair, IsRightAtEveryDistance) {
       EXPECT_GT(count.separated, pairs / 8);
       EXPECT_GT(count.overlapping, pairs / 10);
       EXPECT_GT(count.open, pairs / 100);
-      // A plane across the shortest connection of the axes does not part a skewed box as well.
-      EXPECT_LT(count.open_but_clear, kind_b == ShapeKind::box ? pairs / 10 : pairs / 50);
+      // A plane across the shortest connection of the axes does not part a skewed solid as well.
+      EXPECT_LT(count.open_but_clear, kind_b >= ShapeKind::box ? pairs / 10 : pairs / 50);
     }
   }
 }
