@@ -3,38 +3,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "harness/files/csv.h"
+#include "tests/harness/run_shell.h"
 #include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
-
-struct Ran {
-  int status = -1;   // the exit status; -1 if a signal ended it
-  std::string text;  // its output, of both streams
-};
-
-// Runs a command of the shell.
-inline Ran run_shell(const std::string& command) {
-  std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("popen");
-  Ran ran;
-  std::array<char, 4096> bytes;
-  for (std::size_t got; (got = fread(bytes.data(), 1, bytes.size(), pipe)) > 0;) {
-    ran.text.append(bytes.data(), got);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) ran.status = WEXITSTATUS(status);
-  return ran;
-}
 
 // Runs the program with these arguments, as the shell splits them.
 inline Ran run_program(const std::string& arguments) {

@@ -1,10 +1,11 @@
 // Proofs of every kind are changed at random, as text. One that is verified is still true: its claim is held against
-// the exact answer to the question that the changed proof is of.
+// the exact answer to the question that the changed proof is of. The verifier in Python verifies the same.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +27,9 @@
 #include "tests/algorithms/one_in.h"
 #include "tests/algorithms/random.h"
 #include "tests/algorithms/shapes.h"
+#include "tests/harness/run_shell.h"
 #include "tests/harness/temporary_folder.h"
+#include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
@@ -412,15 +415,43 @@ void write_lines(const TemporaryFolder& folder, const std::vector<Json>& lines) 
   folder.write("proof.jsonl", text);
 }
 
+// Expects the verifier in Python to prove the same certificates of pairs, and no others.
+void expect_the_same_of_python(const TemporaryFolder& folder, const std::vector<Json>& proofs,
+                               const std::vector<bool>& verified) {
+  if (run_shell("python3 --version").status != 0) return;
+  std::string text;
+  for (const Json& proof : proofs) text += proof.dump() + "\n";
+  const auto file = folder.write("all.jsonl", text);
+  const std::string verifier = std::string(project_folder) + "/datasets/certificates/verify.py";
+  const Ran ran = run_shell("python3 '" + verifier + "' '" + file.string() + "'");
+  std::vector<bool> proven(proofs.size(), true);
+  std::istringstream lines(ran.text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(file.string() + ":")) continue;
+    const auto number = static_cast<std::size_t>(std::stoi(line.substr(file.string().size() + 1)));
+    ASSERT_TRUE(number >= 1 && number <= proven.size()) << line;
+    proven[number - 1] = false;
+  }
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    ASSERT_EQ(proven[i], verified[i]) << proofs[i].dump();
+  }
+  const auto count = std::ranges::count(verified, true);
+  EXPECT_NE(ran.text.find(std::to_string(count) + " proven"), std::string::npos) << ran.text;
+}
+
 TEST(MutatedProofs, OfEveryKindThatAreVerifiedAreTrue) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "proof.jsonl";
   for (const ProofKind& kind : kinds_of_proofs()) {
     SCOPED_TRACE(kind.name);
     Judged whole;
+    std::vector<Json> proofs;  // the certificates alone
+    std::vector<bool> verified;
     for (const auto& lines : kind.proofs) {
       write_lines(folder, lines);
       kind.judge(file, whole);
+      proofs.push_back(lines.back());
+      verified.push_back(true);
     }
     EXPECT_EQ(whole.verified, 24);
     Random random(22);
@@ -438,13 +469,17 @@ TEST(MutatedProofs, OfEveryKindThatAreVerifiedAreTrue) {
         change(lines[line], other[line], random);
       }
       write_lines(folder, lines);
+      const int before = judged.verified;
       try {
         kind.judge(file, judged);
       } catch (const base::InputError&) {
         ++judged.malformed;
       }
       if (testing::Test::HasFailure()) return;
+      proofs.push_back(lines.back());
+      verified.push_back(judged.verified > before);
     }
+    if (kind.name == "pairs") expect_the_same_of_python(folder, proofs, verified);
     EXPECT_GT(judged.verified, 100 / one_in);
     EXPECT_GT(judged.refused, 200 / one_in);
     RecordProperty(kind.name + "_verified", judged.verified);
