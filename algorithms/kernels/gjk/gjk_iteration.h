@@ -24,6 +24,7 @@ enum class FastGjkEnd : std::uint8_t {
              // is no search for separation only: proven
   near,      // the simplex's distance is within the tolerance
   inside,    // the tetrahedron contains the origin: proven
+  at_plane,  // the first support plane is at the origin or in front of it, if the goal asks for that
   doubtful,  // rounding or the cap ended the iteration
 };
 
@@ -54,6 +55,8 @@ struct FastGjkGoal {
   bool numbered = false;  // the simplex must hold the indices of its corners
   // Stop at a plane that separates the bodies by more than this, in the pair's unit.
   double margin = std::numeric_limits<double>::infinity();
+  // Stop if the first support plane is within rounding of the origin, or also if the origin is behind it.
+  bool ends_at_plane = false, ends_behind = false;
 };
 
 // `tolerance` applies to the distance, in the pair's unit.

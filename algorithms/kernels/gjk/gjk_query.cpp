@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "algorithms/kernels/gjk/box_face.h"
 #include "algorithms/kernels/gjk/first_plane.h"
 #include "algorithms/kernels/gjk/simplex_face.h"
 #include "algorithms/kernels/minkowski/resolution.h"
@@ -136,18 +137,33 @@ void GjkQuery<Scalar>::decide(const CentreOffset& offset, const SupportShape<Sca
     }
   }
   SupportPair<Scalar> pair(offset, a, pose_a, b, pose_b);
-  FastGjkStart<Scalar> begin(-pair.centre_b());
-  if (tried) {
+  const bool may_rest = is_box_with_hull(a, b);
+  FastGjkStart<Scalar> begin(start_direction(pair));
+  if (tried && !may_rest) {
     // The iteration goes on where its first step, which was the plane's, ended.
     outcome.iterations = 1;
     pair.count_support();
     place_corner(pair, plane.corners, begin.simplex);
     begin.direction = begin.simplex.points[0].difference;
   }
-  const FastGjkGoal goal{.only_apart = true,
-                         .most_iterations = settings_.gjk_cap - outcome.iterations};
-  const FastGjkResult<Scalar> found = functions_.fast_gjk(pair, goal, tolerance(true), begin);
+  FastGjkGoal goal{.only_apart = true,
+                   .most_iterations = settings_.gjk_cap - outcome.iterations,
+                   .ends_at_plane = may_rest};
+  FastGjkResult<Scalar> found = functions_.fast_gjk(pair, goal, tolerance(true), begin);
   outcome.iterations += found.iterations;
+  if (found.end == FastGjkEnd::at_plane) {
+    const auto contact = find_box_face_contact(pair, found.simplex.points[0]);
+    if (contact && write_if_touching(pair, *contact, Task::intersect, outcome)) {
+      outcome.support_calls = pair.support_calls();
+      return;
+    }
+    goal.ends_at_plane = false;
+    goal.most_iterations -= found.iterations;
+    FastGjkStart<Scalar> rest(found.simplex.points[0].difference);
+    rest.simplex = found.simplex;
+    found = functions_.fast_gjk(pair, goal, tolerance(true), rest);
+    outcome.iterations += found.iterations;
+  }
   if (found.end != FastGjkEnd::apart && found.end != FastGjkEnd::inside) {
     if (is_at_a_face(pair, found.simplex, Task::intersect, outcome)) {
       outcome.support_calls = pair.support_calls();

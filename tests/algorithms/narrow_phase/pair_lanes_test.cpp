@@ -387,7 +387,7 @@ TEST(RestingHulls, EndAtAFace) {
     for (const Task task : all_tasks) {
       const std::vector<Outcome> outcomes =
           solve(entry, Precision::float64, task, pairs, pairs.size());
-      std::size_t touching = 0, by_epa = 0;
+      std::size_t touching = 0, at_once = 0, by_epa = 0;
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Outcome& o = outcomes[i];
         const oracle::Measure& truth = truths[i];
@@ -395,6 +395,7 @@ TEST(RestingHulls, EndAtAFace) {
                      " pair " + std::to_string(i));
         const bool is_touching = o.answer == Answer::touching;
         touching += is_touching ? 1u : 0u;
+        at_once += is_touching && o.iterations == 1 ? 1u : 0u;
         by_epa += is_touching && o.iterations > 12 ? 1u : 0u;
         ASSERT_TRUE(is_touching || truth.answer == Answer::touching || o.answer == truth.answer);
         if (!is_touching && !asks_for_number(task, o.answer)) continue;
@@ -407,6 +408,8 @@ TEST(RestingHulls, EndAtAFace) {
       }
       EXPECT_GT(touching, pairs.size() / 4);
       EXPECT_LT(touching, pairs.size());
+      // By the face that the hull's centre is in front of, where a corner of the hull is on it.
+      EXPECT_GT(at_once, 0) << static_cast<int>(rest);
       EXPECT_LT(by_epa, touching / 4);
     }
   }
