@@ -154,7 +154,7 @@ bool is_measured_by(const campaign::CampaignGroup& earlier, const campaign::Camp
 // Leaves each group a small part of its time, for a first look. It has a folder of its own. Scenes
 // of boxes that an earlier group then has with as many boxes are left out.
 void make_quick(campaign::Campaign& campaign) {
-  constexpr double quick_seconds = 0.6;  // for the samples of a block
+  constexpr double quick_seconds = 0.45;  // for the samples of a block
   constexpr int quick_squares = 8;       // an interval needs six, and some are disturbed
   campaign.name += "-quick";
   for (campaign::CampaignGroup& group : campaign.groups) {
