@@ -12,9 +12,11 @@
 #include "harness/base/error.h"
 #include "harness/files/cases.h"
 #include "harness/files/csv.h"
+#include "harness/files/text_file.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh/mesh_kind.h"
 #include "harness/kinds/pair/pair_cases.h"
+#include "harness/kinds/pair/reproducer/reproducer.h"
 #include "harness/kinds/questions.h"
 #include "harness/process/solve_case.h"
 
@@ -46,6 +48,9 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
     if (input.has("--save-certificates")) claim();
     for (const files::ConcaveCase& c : named_) cases_.push_back(convex_case(c));
     select(input.names, "narrow phase", settings_.scalar);
+    if (input.has("--as-test")) {
+      test_ = reproducer(library_of_test(), cases_, task_, input.text("--as-test"));
+    }
     for (const Asked& asked : asked_) {
       if (!settings_.duality_gap || asked.entry->traits.stops_by_duality_gap) continue;
       throw base::InputError(fmt::format(
@@ -58,7 +63,13 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
   std::string label(std::size_t i) const override { return fmt::format("case '{}'", cases_[i].id); }
   std::vector<files::NamedFile> inputs() const override { return {{"FILE", input_.file}}; }
   std::vector<files::NamedFile> outputs() const override {
-    return {{"--page", input_.text("--page")}};
+    return {{"--page", input_.text("--page")}, {"--as-test", input_.text("--as-test")}};
+  }
+  void write_further() override {
+    if (!input_.has("--as-test")) return;
+    const std::filesystem::path file = input_.text("--as-test");
+    files::write_text(file, test_);
+    fmt::print("{}: its first lines say how it is compiled\n", file.string());
   }
   std::string_view unit() const override { return "m"; }
   std::span<const files::ConcaveCase> pairs() const override { return named_; }
@@ -105,6 +116,21 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
   Proving proving() const override { return parts_proving(claim(), named_); }
 
  private:
+  // The one library that is asked.
+  std::string_view library_of_test() const {
+    std::string_view library;
+    int count = 0;
+    for (const Asked& asked : asked_) {
+      if (asked.entry->info.origin != Origin::peer) continue;
+      library = asked.entry->info.name;
+      ++count;
+    }
+    if (count == 1) return library;
+    throw base::InputError(
+        fmt::format("--as-test was given with {} libraries; expected --with one of {}", count,
+                    names_with_reproducers()));
+  }
+
   static Outcome outcome_of(const PairAnswer& given) {
     Outcome outcome = given.outcome;
     outcome.status = given.status;
@@ -150,6 +176,7 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
   Task task_;
   std::vector<files::ConcaveCase> named_;  // as they were read
   std::vector<files::Case> cases_;
+  std::string test_;  // of --as-test
   NarrowPhaseSettings settings_;
 };
 
@@ -166,7 +193,10 @@ std::vector<QueryOption> pair_options() {
         .excludes = "--tolerance"},
        {"--margin", Value::not_negative, "Bodies further apart than this get no distance (metres)"},
        option::max_iterations,
-       option::saved});
+       option::saved,
+       {"--as-test", Value::text,
+        "Also write the pairs as a test of the library of --with, in its own language, such as "
+        "reproducer.cpp"}});
 }
 
 std::unique_ptr<Questions> read_pair_questions(const QuestionInput& input) {

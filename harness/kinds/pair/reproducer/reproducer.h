@@ -1,0 +1,26 @@
+// Pairs and their exact answers as a test of a library, in its own language, that can be sent to its authors: it
+// needs the library and a compiler, and none of this program.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "algorithms/narrow_phase.h"
+#include "harness/files/cases.h"
+
+namespace touchstone::kinds {
+
+// The algorithms of libraries that have such a form, joined by commas.
+std::string names_with_reproducers();
+
+// The text of the test, which fails if the library is on the wrong side of contact, or a number that the task
+// asks for is off by more than a thousandth of the pair's size, as in the summary of a run. `file` is its name, for
+// the line that compiles it. The cases are rounded to the library's numbers first. Cases with shapes that the library
+// does not take are left out, with a comment. Throws InputError for an algorithm that has no such form, and if no
+// case is left.
+std::string reproducer(std::string_view algorithm, std::span<const files::Case> cases, Task task,
+                       const std::filesystem::path& file);
+
+}  // namespace touchstone::kinds
