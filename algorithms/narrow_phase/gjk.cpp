@@ -11,8 +11,8 @@
 //          4. Iterate fast with plain products (kernels/gjk/gjk_iteration); between polytopes its
 //             verdict is enough. Its first plane is tried before the pair is prepared for more, if
 //             one is a hull and the centres are far enough apart (kernels/gjk/first_plane). Between a box and a
-//             hull it starts towards the nearest place of the box; where the hull rests on that face, it ends
-//             there (kernels/gjk/box_face).
+//             hull it starts towards the box's place that is nearest to the hull's centre. Where the hull
+//             rests on a face of the box, it ends there (kernels/gjk/box_face).
 //          5. Continue in the distance loop, where each simplex bounds the distance from above and
 //             each support plane from below, until the bounds decide (kernels/gjk/gjk_distance).
 //          6. If the origin is in the cores' difference, a triangle of the simplex whose plane supports

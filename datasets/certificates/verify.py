@@ -4,9 +4,10 @@
 A second verifier beside the one in C++, written from results/certificates.md: it shares no code, no language
 and no arithmetic with the program that makes the proofs. Every number is a Fraction, which Python makes of a
 double without rounding, and no comparison is approximate. The one thing that is rounded is a root, upward.
+It needs Python 3.8 and its standard library alone.
 
 Prints the line and the reason of each certificate that proves nothing, then counts. The exit status is 0 if
-all hold, 1 if one does not, 2 if a line is no certificate of a pair.
+all hold, 1 if one does not, 2 if a line is no certificate of a pair, there is none, or a file cannot be read.
 """
 import json
 import math
@@ -45,11 +46,14 @@ def size(x):
 
 
 def hexadecimal(text):
-    """A number such as "-0x1.8p-1", of any number of digits."""
+    """A number such as "-0x1.8p-1", of at most 64 significant bits."""
     match = re.fullmatch(r"(-?)0x([0-9a-f]+)(?:\.([0-9a-f]*))?p([+-]?[0-9]{1,6})", str(text))
     require(match, f"{text!r} is no hexadecimal number", Malformed)
     sign, whole, part, power = match[1], match[2], match[3] or "", int(match[4]) - 4 * len(match[3] or "")
-    value = int(whole + part, 16) * (Fraction(2) ** power)
+    digits = int(whole + part, 16)
+    odd = digits // (digits & -digits) if digits else 0
+    require(odd.bit_length() <= 64 and -16445 <= power <= 16383, f"{text!r} is no long double", Malformed)
+    value = digits * (Fraction(2) ** power)
     return -value if sign else value
 
 
@@ -97,7 +101,7 @@ class Length:
 
 def claimed_length(root):
     sign = root["sign"]
-    require(sign in (-1, 0, 1) and not isinstance(sign, bool), "a sign is not -1, 0 or 1", Malformed)
+    require(type(sign) is int and sign in (-1, 0, 1), "a sign is not -1, 0 or 1", Malformed)
     numerator, denominator = integer(root["numerator"]), integer(root["denominator"])
     good = numerator > 0 and denominator >= 0 if sign else numerator == 0 and denominator > 0
     require(good, "a claimed bound is not a number")
@@ -155,11 +159,33 @@ def rotation_rows(body):
     return tuple(tuple(entries[k : k + 3]) for k in (0, 3, 6))
 
 
+# The keys of a body, and of each shape. Others could change what the body is.
+BODY_KEYS = {"shape", "translation", "rotation", "quaternion_exact"}
+SHAPE_KEYS = {
+    "sphere": {"radius"},
+    "capsule": {"radius", "half_length", "axis"},
+    "box": {"half_extents"},
+    "cylinder": {"radius", "half_length", "axis"},
+    "cone": {"radius", "half_length", "axis"},
+    "ellipsoid": {"radii"},
+    "hull": {"vertices"},
+    "halfspace": {"normal", "offset"},
+}
+
+
+def require_keys(of, known):
+    strange = set(of) - known
+    require(not strange, f"the keys {sorted(strange)} of a body are not in the format", Malformed)
+
+
 class Core:
     """A body without the ball around it, at its place in the world."""
 
     def __init__(self, body, bits):
         shape = body["shape"]
+        require_keys(body, BODY_KEYS)
+        require(shape["type"] in SHAPE_KEYS, f"the shape {shape['type']!r}", Malformed)
+        require_keys(shape, SHAPE_KEYS[shape["type"]] | {"type"})
         self.bits = bits
         self.rows = rotation_rows(body)
         self.translation = vector(body.get("translation", [0, 0, 0]))
@@ -184,10 +210,8 @@ class Core:
             self.set_curved((radius, radius, size(shape["half_length"])), ends=(0, 0, 1))
         elif self.kind == "ellipsoid":
             self.set_curved(vector(shape["radii"], size), ends=(1, 1, 1))
-        elif self.kind == "halfspace":
-            self.set_plane(vector(shape["normal"]), number(shape["offset"]))
         else:
-            raise Malformed(f"the shape {self.kind!r}")
+            self.set_plane(vector(shape["normal"]), number(shape["offset"]))
 
     def set_curved(self, extents, ends):
         """What is a point or a segment is the polytope of its two ends."""
@@ -392,24 +416,39 @@ def check(proof):
     require(proof["answer"] == answer, "the answer does not follow from the bounds")
 
 
+def judge(text):
+    """Why a line proves nothing, and whether it is malformed; nothing if it proves its claim."""
+    try:
+        check(json.loads(text))
+        return None
+    except Fault as fault:
+        return f"refused: {fault}", False
+    except (Malformed, KeyError, TypeError, ValueError, AttributeError, OverflowError, RecursionError) as error:
+        return f"no certificate of a pair: {error!r}", True
+
+
 def main(files):
     proven, refused, malformed = 0, 0, 0
     for name in files:
-        with sys.stdin if name == "-" else open(name, encoding="utf-8") as lines:
+        try:
+            lines = sys.stdin.buffer if name == "-" else open(name, "rb")
+        except OSError as error:
+            print(f"{name}: {error.strerror}")
+            malformed += 1
+            continue
+        with lines:
             for count, line in enumerate(lines, 1):
-                if not line.strip():
+                text = line.decode("utf-8-sig" if count == 1 else "utf-8", errors="surrogateescape")
+                if not text.strip():
                     continue
-                try:
-                    check(json.loads(line))
-                    proven += 1
-                except Fault as fault:
-                    refused += 1
-                    print(f"{name}:{count}: refused: {fault}")
-                except (Malformed, KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
-                    malformed += 1
-                    print(f"{name}:{count}: no certificate of a pair: {error!r}")
+                why = judge(text)
+                proven += why is None
+                refused += why is not None and not why[1]
+                malformed += why is not None and why[1]
+                if why is not None:
+                    print(f"{name}:{count}: {why[0]}")
     print(f"{proven} proven, {refused} refused, {malformed} malformed")
-    return 2 if malformed else 1 if refused else 0
+    return 2 if malformed or proven + refused == 0 else 1 if refused else 0
 
 
 if __name__ == "__main__":

@@ -155,7 +155,7 @@ bool is_measured_by(const campaign::CampaignGroup& earlier, const campaign::Camp
 // of boxes that an earlier group then has with as many boxes are left out.
 void make_quick(campaign::Campaign& campaign) {
   constexpr double quick_seconds = 0.45;  // for the samples of a block
-  constexpr int quick_squares = 8;       // an interval needs six, and some are disturbed
+  constexpr int quick_squares = 8;        // an interval needs six, and some are disturbed
   campaign.name += "-quick";
   for (campaign::CampaignGroup& group : campaign.groups) {
     group.seconds = std::min(group.seconds, quick_seconds);

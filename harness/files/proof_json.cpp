@@ -1,11 +1,15 @@
 // Reads and writes the parts of certificates.
 #include "harness/files/proof_json.h"
 
+#include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "harness/base/input_file.h"
@@ -18,6 +22,21 @@ using oracle::Integer;
 
 namespace {
 
+// The bits of a hexadecimal number from its first to its last that is set.
+int significant_bits(std::string_view text) {
+  std::string digits;
+  text = text.substr(text.find('x') + 1);
+  std::ranges::copy_if(text.substr(0, text.find('p')), std::back_inserter(digits),
+                       [](char c) { return c != '.'; });
+  const std::size_t first = digits.find_first_not_of('0'), last = digits.find_last_not_of('0');
+  if (first == std::string::npos) return 0;
+  const auto value = [&](std::size_t at) {
+    return static_cast<unsigned>(std::stoi(digits.substr(at, 1), nullptr, 16));
+  };
+  const int count = static_cast<int>(last - first) + 1;
+  return 4 * count - (4 - std::bit_width(value(first))) - std::countr_zero(value(last));
+}
+
 long double read_hexadecimal(const JsonNode& node) {
   constexpr std::string_view expected = "a hexadecimal number in a string, such as \"0x1.8p-1\"";
   const std::string& text = node.text(expected);
@@ -25,7 +44,8 @@ long double read_hexadecimal(const JsonNode& node) {
   errno = 0;
   const long double x = std::strtold(text.c_str(), &end);
   const bool hexadecimal = text.starts_with("0x") || text.starts_with("-0x");
-  if (!hexadecimal || end != text.c_str() + text.size() || errno != 0 || !std::isfinite(x)) {
+  if (!hexadecimal || end != text.c_str() + text.size() || errno != 0 || !std::isfinite(x) ||
+      significant_bits(text) > std::numeric_limits<long double>::digits) {
     node.fail(fmt::format("found {}; expected {}", node.found(), expected));
   }
   return x;

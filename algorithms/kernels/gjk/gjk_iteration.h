@@ -4,7 +4,8 @@
 // Steps:   1. Start at the difference of the centres, or at a given simplex.
 //          2. Find the support point towards the origin, in vectors of four numbers.
 //          3. If its plane is further from the origin than the radii (and the margin, if the
-//             distance is searched), or the bounds meet to the tolerance, stop.
+//             distance is searched), or the bounds meet to the tolerance, stop. Stop also at the first
+//             plane, if the goal asks for that.
 //          4. If the point is already in the simplex, stop.
 //          5. Add the point and reduce the simplex to the nearest feature that contains it.
 //          6. If a tetrahedron remains, test that it contains the origin beyond rounding. If that
@@ -24,7 +25,7 @@ enum class FastGjkEnd : std::uint8_t {
              // is no search for separation only: proven
   near,      // the simplex's distance is within the tolerance
   inside,    // the tetrahedron contains the origin: proven
-  at_plane,  // the first support plane is at the origin or in front of it, if the goal asks for that
+  at_plane,  // the first support plane is where the goal stops (FirstPlaneStop)
   doubtful,  // rounding or the cap ended the iteration
 };
 
@@ -49,14 +50,17 @@ struct FastGjkStart {
   Simplex<Scalar> simplex;  // may be empty; otherwise only corners of the nearest point's feature
 };
 
+// Whether the iteration stops at its first support plane, where it is no proof: if that is within rounding of the
+// origin, or also if the origin is behind it.
+enum class FirstPlaneStop : std::uint8_t { never, near_origin, near_or_behind };
+
 struct FastGjkGoal {
   bool only_apart = false;  // stop at a plane that separates the bodies
   int most_iterations = 0;
   bool numbered = false;  // the simplex must hold the indices of its corners
   // Stop at a plane that separates the bodies by more than this, in the pair's unit.
   double margin = std::numeric_limits<double>::infinity();
-  // Stop if the first support plane is within rounding of the origin, or also if the origin is behind it.
-  bool ends_at_plane = false, ends_behind = false;
+  FirstPlaneStop first_plane = FirstPlaneStop::never;
 };
 
 // `tolerance` applies to the distance, in the pair's unit.

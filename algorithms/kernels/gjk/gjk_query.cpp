@@ -139,30 +139,30 @@ void GjkQuery<Scalar>::decide(const CentreOffset& offset, const SupportShape<Sca
   SupportPair<Scalar> pair(offset, a, pose_a, b, pose_b);
   const bool may_rest = is_box_with_hull(a, b);
   FastGjkStart<Scalar> begin(start_direction(pair));
-  if (tried && !may_rest) {
-    // The iteration goes on where its first step, which was the plane's, ended.
+  if (tried) {
     outcome.iterations = 1;
     pair.count_support();
+  }
+  if (tried && !may_rest) {
+    // The iteration goes on where its first step, which was the plane's, ended.
     place_corner(pair, plane.corners, begin.simplex);
     begin.direction = begin.simplex.points[0].difference;
   }
-  FastGjkGoal goal{.only_apart = true,
-                   .most_iterations = settings_.gjk_cap - outcome.iterations,
-                   .ends_at_plane = may_rest};
-  FastGjkResult<Scalar> found = functions_.fast_gjk(pair, goal, tolerance(true), begin);
+  const FastGjkGoal goal{
+      .only_apart = true,
+      .most_iterations = settings_.gjk_cap - outcome.iterations,
+      .first_plane = may_rest ? FirstPlaneStop::near_origin : FirstPlaneStop::never};
+  std::optional<FaceContact<Scalar>> contact;
+  const FastGjkResult<Scalar> found = fast_gjk_from_box(
+      pair, goal, begin,
+      [&](const FastGjkGoal& asked, const FastGjkStart<Scalar>& start) {
+        return functions_.fast_gjk(pair, asked, tolerance(true), start);
+      },
+      contact);
   outcome.iterations += found.iterations;
-  if (found.end == FastGjkEnd::at_plane) {
-    const auto contact = find_box_face_contact(pair, found.simplex.points[0]);
-    if (contact && write_if_touching(pair, *contact, Task::intersect, outcome)) {
-      outcome.support_calls = pair.support_calls();
-      return;
-    }
-    goal.ends_at_plane = false;
-    goal.most_iterations -= found.iterations;
-    FastGjkStart<Scalar> rest(found.simplex.points[0].difference);
-    rest.simplex = found.simplex;
-    found = functions_.fast_gjk(pair, goal, tolerance(true), rest);
-    outcome.iterations += found.iterations;
+  if (contact && write_if_touching(pair, *contact, Task::intersect, outcome)) {
+    outcome.support_calls = pair.support_calls();
+    return;
   }
   if (found.end != FastGjkEnd::apart && found.end != FastGjkEnd::inside) {
     if (is_at_a_face(pair, found.simplex, Task::intersect, outcome)) {

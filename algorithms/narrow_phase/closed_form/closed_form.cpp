@@ -2,9 +2,8 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, sections 5.1.3 (point and box), 5.1.9
 //          (segments), 5.2.3 (half-space); Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996
 //          (boxes).
-// Steps:   1. Solve batches of box pairs, of spheres and capsules with each other, and of spheres with a
-//             box, cylinder or cone, in vector lanes, one pair per lane (kernels/batch/box_pair_lanes,
-//             round_pair_lanes).
+// Steps:   1. Solve batches in vector lanes, one pair per lane: boxes (kernels/batch/box_pair_lanes), spheres
+//             and capsules with each other, spheres with a box, cylinder or cone (round_pair_lanes).
 //          2. Solve the pairs that the lanes leave open, and all other batches, one by one.
 //          3. Half-space: one support point of the other body (kernels/minkowski/halfspace).
 //          4. Box and box: the greatest gap along 15 axes (kernels/sat/box_box). Boxes that rest touch
@@ -16,19 +15,20 @@
 //             closest points of the two segments, or of the point and the box; a point inside a box
 //             leaves through the nearest face.
 //          6. Sphere and cylinder or cone: the nearest place on the outline of the half plane through the
-//             point and the axis, a rectangle or a triangle. Within rounding of contact, GJK.
+//             point and the axis, a rectangle or a triangle. Within rounding of contact, and for a matrix that
+//             is no rotation, GJK and EPA.
 //          7. Subtract the radii from the signed gap of the cores, and compare it with its rounding
 //             error.
 //          8. Capsule and box: the zero of the slope of the distance along the segment, which is
 //             linear between eight places; where the segment meets the box, the least depth along
 //             six axes (closed_form/plain_capsule_box). What that leaves open goes to GJK and EPA
 //             (kernels/gjk/gjk_query).
-//          A pair that is asked for alone skips the lanes: spheres with all but ellipsoids and hulls, and
-//          capsules with capsules and boxes, take the nearest points of their cores and a plane between them,
-//          in double whatever the scalar (closed_form/plain_pair), and the verdict of boxes takes the fifteen
-//          axes in one vector each (closed_form/plain_boxes), their depth the same axes
-//          (closed_form/plain_box_depth), boxes that rest the face that they touch
-//          (closed_form/plain_box_rest). What these leave open goes to step 1 or 2.
+//          A pair that is asked for alone skips the lanes, in double whatever the scalar. Round bodies, and
+//          spheres with a box, cylinder or cone, take the nearest points of their cores and a plane between
+//          them (closed_form/plain_pair). The verdict of boxes takes the fifteen axes in one vector each
+//          (closed_form/plain_boxes), and their depth the same axes (closed_form/plain_box_depth). Boxes that
+//          rest take the face that they touch (closed_form/plain_box_rest). What these leave open goes to
+//          step 1 or 2.
 // Departs: if two cores meet, or nearly so, the normal is made orthogonal to the segments in whose
 //          interior they meet, so that the depth stays exact. A box keeps its matrix as given: the
 //          inverse takes a point into its frame.
@@ -39,9 +39,10 @@
 //          (double) or 1.6e-5 (float) of the pair's unit apart (kernels/minkowski/resolution).
 // Fails:   reports not_converged if the rounding error is greater than that, and degenerate for a
 //          sphere near a box that its matrix skews, if its two bounds do not decide or differ by
-//          more than 1e-10 of the size.
-// Cost:    O(1), at most eight rounds for boxes that rest or are apart; GJK's, and EPA's for a capsule, where
-//          that leaves a pair open; one support call for a hull over a half-space.
+//          more than 1e-10 of the size. Pairs that go to GJK fail as there: a sphere and a cylinder or
+//          cone within rounding of contact may be not_converged.
+// Cost:    O(1), at most eight rounds for boxes that rest or are apart; GJK's where that leaves a pair open,
+//          and EPA's for a capsule, cylinder or cone; one support call for a hull over a half-space.
 #include <algorithm>
 #include <limits>
 
@@ -129,7 +130,7 @@ class ClosedForm final : public NarrowPhase {
       return;
     }
     if (solve_plain_pair(task, a, pose_a, b, pose_b, outcome, margin_)) return;
-    if (is_turned(batch.kind_b)) return NarrowPhase::solve_alone(task, batch, i, outcome);
+    if (is_revolved(batch.kind_b)) return NarrowPhase::solve_alone(task, batch, i, outcome);
     solve_one(task, batch, i, outcome);
   }
 
@@ -144,18 +145,21 @@ class ClosedForm final : public NarrowPhase {
       gjk_.solve(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, nullptr, outcome);
     } else if (batch.kind_a == ShapeKind::box) {
       solve_boxes({polytopes_[a], pose_a, polytopes_[b], pose_b}, task, outcome);
-    } else if (batch.kind_a == ShapeKind::capsule && batch.kind_b == ShapeKind::box) {
-      if (plain_capsule_box_(task, shapes_[a], pose_a, shapes_[b], pose_b, outcome, margin_))
+    } else if (is_revolved(batch.kind_b) || is_capsule_box(batch)) {
+      if (is_capsule_box(batch) &&
+          plain_capsule_box_(task, shapes_[a], pose_a, shapes_[b], pose_b, outcome, margin_)) {
         return;
-      gjk_.solve(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, nullptr, outcome);
-    } else if (is_turned(batch.kind_b)) {
+      }
       gjk_.solve(support_shapes_[a], pose_a, support_shapes_[b], pose_b, task, nullptr, outcome);
     } else {
       solve_round(shapes_[a], pose_a, shapes_[b], pose_b, task, outcome);
     }
   }
 
-  static bool is_turned(ShapeKind kind) {
+  static bool is_capsule_box(const PairBatch& batch) {
+    return batch.kind_a == ShapeKind::capsule && batch.kind_b == ShapeKind::box;
+  }
+  static bool is_revolved(ShapeKind kind) {
     return kind == ShapeKind::cylinder || kind == ShapeKind::cone;
   }
 

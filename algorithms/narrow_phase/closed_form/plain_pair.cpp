@@ -59,8 +59,8 @@ Nearest of_point_and_box(const Vec& centre, const Mat3d& matrix, const Vec3d& ha
 
 // A point and the cylinder or cone around `centre`: the nearest place is in the half plane through the
 // point and the axis, in a rectangle or a triangle.
-Nearest of_point_and_turned(const Vec& centre, const Mat3d& matrix, const Shape& solid,
-                            double size) {
+Nearest of_point_and_revolved(const Vec& centre, const Mat3d& matrix, const Shape& solid,
+                              double size) {
   const Vec x = column(matrix, 0), y = column(matrix, 1), z = column(matrix, 2);
   const double at_x = -dot(x, centre), at_y = -dot(y, centre), at_z = -dot(z, centre);
   const double radius = solid.radius, half = solid.half_length;
@@ -68,10 +68,10 @@ Nearest of_point_and_turned(const Vec& centre, const Mat3d& matrix, const Shape&
   const double from_base = at_z + half;
   const bool cone = solid.kind == ShapeKind::cone;
   double out = std::min(from_axis, radius), up = clamp(at_z, -half, half);
-  const bool under_base = from_base < 0 && from_rim <= 0;
-  const bool beside = from_base < 0 || 2 * half * from_rim + radius * from_base > 0;
-  if (cone && !under_base && beside) {
-    // On the slant, this part of the way from the rim to the tip.
+  const bool nearest_on_slant =
+      from_base < 0 ? from_rim > 0 : 2 * half * from_rim + radius * from_base > 0;
+  if (cone && nearest_on_slant) {
+    // This part of the way from the rim to the tip.
     const double square = radius * radius + 4 * half * half;
     const double along = 2 * half * from_base - radius * from_rim;
     const double part = square > 0 ? clamp(along / square, 0, 1) : 0;
@@ -142,7 +142,7 @@ bool solve_plain_pair(Task task, const Shape& a, const Pose& pose_a, const Shape
     case of_kinds(ShapeKind::sphere, ShapeKind::cylinder):
     case of_kinds(ShapeKind::sphere, ShapeKind::cone): {
       const double extent = (2 * b.radius + b.half_length) * pose_b.rotation.cwiseAbs().maxCoeff();
-      return answer(task, margin, of_point_and_turned(centre, pose_b.rotation, b, size + extent),
+      return answer(task, margin, of_point_and_revolved(centre, pose_b.rotation, b, size + extent),
                     a.radius, 0, pose_a, outcome);
     }
     case of_kinds(ShapeKind::capsule, ShapeKind::capsule): {

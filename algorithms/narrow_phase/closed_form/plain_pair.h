@@ -1,4 +1,5 @@
-// One pair of round bodies, or of a sphere and a box, in as little as the mathematics needs.
+// One pair of round bodies, or of a sphere and a box, cylinder or cone, in as little as the mathematics
+// needs.
 #pragma once
 
 #include <limits>
@@ -9,8 +10,8 @@
 
 namespace touchstone {
 
-// Answers a pair of a sphere or capsule with another, or of a sphere with a box, a.kind <= b.kind,
-// in double. Returns false, and leaves the outcome as it is, for all other kinds, and if that leaves
+// Answers a pair of a sphere or capsule with another, or of a sphere with a box, cylinder or cone, a.kind <=
+// b.kind, in double. Returns false, and leaves the outcome as it is, for all other kinds, and if that leaves
 // the answer or a number open, such as within 1e-14 of the pair's size of contact. The bounds on the
 // signed distance are at most 4e-14 of the sum of the pair's lengths apart. Bodies that are further
 // apart than `margin` (metres) get no distance (write_beyond).

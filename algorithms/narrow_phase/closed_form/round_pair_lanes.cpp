@@ -22,14 +22,14 @@ using simd::Quad;
 //
 // A box is rotated by the transpose of its matrix if that is orthonormal. A coordinate is then off
 // by less than 23 u in float and 40 u in double (see box_pair_lanes.cpp); lengths change by half of
-// the spectral norm of the skew, 14 u and 29 u. Cylinders and cones are rotated likewise: with three such
-// coordinates the point is off by 40 u and 70 u, and its distance from the outline, which is made of
-// fewer than 20 operations, by 16 u more.
+// the spectral norm of the skew, 14 u and 29 u. Cylinders and cones are rotated likewise. With three such
+// coordinates the point is off by 40 u and 70 u. Its distance from the outline is made of fewer than 20
+// operations, and off by 16 u more.
 template <class Scalar>
 struct DistanceError {
   static constexpr Scalar cores = 32 * unit_roundoff<Scalar>;
   static constexpr Scalar box = (std::is_same_v<Scalar, float> ? 64 : 128) * unit_roundoff<Scalar>;
-  static constexpr Scalar turned =
+  static constexpr Scalar revolved =
       (std::is_same_v<Scalar, float> ? 80 : 128) * unit_roundoff<Scalar>;
 };
 

@@ -3,8 +3,8 @@
 // Paper:   Ericson, "Real-Time Collision Detection", 2005, sections 5.1.3 (point and box), 5.1.9
 //          (segments).
 //
-// A point's nearest place on a cylinder or cone is that on its outline in the half plane through the
-// point and the axis, a rectangle or a triangle.
+// A cylinder's or cone's outline in the half plane through a point and the axis is a rectangle or a
+// triangle. The place of it that is nearest to the point is the nearest of the solid.
 //
 // The lanes solve pairs with sizes within 1e-10 to 1e12 metres and solids whose matrices are
 // orthonormal up to rounding. They return all others, and those that they leave open, for a serial

@@ -127,8 +127,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
                 Lanes::abs(dot<Scalar>(cores.normal, half_b));
 }
 
-// Where a point lies to a solid, in the solid's axes. The unit vector from the point to the nearest place of
-// the surface, if the point is outside, and from there to the point, if it is inside, is outward * scale.
+// Where a point lies to a solid: metres, in the solid's axes. outward * scale is a unit vector. From a point outside
+// it goes to the nearest place of the surface; from that of a point inside to the point.
 template <class Scalar>
 struct SolidGap {
   using Vector = typename Simd<Scalar>::Vector;
@@ -136,10 +136,12 @@ struct SolidGap {
   Vector gap;  // the distance; inside, minus the depth
 };
 
-// The solid is a box of these half extents.
+// The solid is a box of these half extents, metres. A distance up to `rounding` has no digits left in its square, so
+// that the point counts as inside.
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_from_box(const typename Simd<Scalar>::Vector at[3],
                                                        const typename Simd<Scalar>::Vector half[3],
+                                                       typename Simd<Scalar>::Vector rounding,
                                                        SolidGap<Scalar>& solid) {
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
@@ -161,26 +163,24 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_from_box(const typename Simd<Scala
   }
   const Vector distance =
       Lanes::sqrt(outside[0] * outside[0] + outside[1] * outside[1] + outside[2] * outside[2]);
-  const auto is_outside = Lanes::less(zero, distance);
+  const auto is_outside = Lanes::less(rounding, distance);
   solid.scale = -one / Lanes::select(is_outside, distance, one);
   solid.gap = Lanes::select(is_outside, distance, least);
   for (int k = 0; k < 3; ++k) solid.outward[k] = Lanes::select(is_outside, outside[k], inward[k]);
 }
 
-// The solid is a cylinder or a cone around z: a rectangle or a triangle in the half plane through the point
-// and the axis.
+// The solid is a cylinder or a cone around z, with this radius and half length in metres: a rectangle or a triangle
+// in the half plane through the point and the axis. `rounding` is as for a box.
 template <class Scalar, bool cone>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_from_turned(const typename Simd<Scalar>::Vector at[3],
-                                                          typename Simd<Scalar>::Vector radius,
-                                                          typename Simd<Scalar>::Vector half,
-                                                          typename Simd<Scalar>::Vector size,
-                                                          SolidGap<Scalar>& solid) {
+TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_from_revolved(
+    const typename Simd<Scalar>::Vector at[3], typename Simd<Scalar>::Vector radius,
+    typename Simd<Scalar>::Vector half, typename Simd<Scalar>::Vector rounding,
+    SolidGap<Scalar>& solid) {
   using Lanes = Simd<Scalar>;
   using Vector = typename Lanes::Vector;
   const Vector zero = Lanes::broadcast(0), one = Lanes::broadcast(1);
   const Vector from_axis = Lanes::sqrt(at[0] * at[0] + at[1] * at[1]);
-  // Within rounding of the axis all directions are the same, and a square may have no digits left.
-  const Vector rounding = Lanes::broadcast(unit_roundoff<Scalar>) * size;
+  // Within rounding of the axis any direction serves.
   const auto is_off = Lanes::less(rounding, from_axis);
   const Vector over = one / Lanes::select(is_off, from_axis, one);
   const Vector x = Lanes::select(is_off, at[0] * over, one);
@@ -195,9 +195,14 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_from_turned(const typename Simd<Sc
     const Vector along_up = Lanes::select(is_long, Lanes::broadcast(2) * half * over_slant, one);
     const Vector from_rim = from_axis - radius, from_base = at[2] + half, from_tip = at[2] - half;
     const Vector side = from_rim * along_up - from_base * along_out;
-    const auto at_tip = Lanes::less(zero, from_axis * along_out + from_tip * along_up);
-    const auto at_rim = both(Lanes::less(from_rim * along_out + from_base * along_up, zero),
-                             Lanes::less(zero, from_rim));
+    const auto off_tip =
+        Lanes::less(rounding, Lanes::max(Lanes::abs(from_axis), Lanes::abs(from_tip)));
+    const auto off_rim =
+        Lanes::less(rounding, Lanes::max(Lanes::abs(from_rim), Lanes::abs(from_base)));
+    const auto at_tip =
+        both(off_tip, Lanes::less(zero, from_axis * along_out + from_tip * along_up));
+    const auto before_rim = Lanes::less(from_rim * along_out + from_base * along_up, zero);
+    const auto at_rim = both(off_rim, both(before_rim, Lanes::less(zero, from_rim)));
     const auto at_side = Lanes::less(-from_base, side);
     const auto at_point = either(at_tip, at_rim);
     out = Lanes::select(at_side, along_up, zero);
@@ -212,7 +217,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_from_turned(const typename Simd<Sc
     const Vector sign = Lanes::select(Lanes::less(at[2], zero), -one, one);
     const Vector outside = Lanes::max(beyond_side, zero), above = Lanes::max(beyond_end, zero);
     const Vector distance = Lanes::sqrt(outside * outside + above * above);
-    const auto is_outside = Lanes::less(zero, distance);
+    const auto is_outside = Lanes::less(rounding, distance);
     const auto by_side = Lanes::less(beyond_end, beyond_side);
     out = Lanes::select(is_outside, outside, Lanes::select(by_side, one, zero));
     up = sign * Lanes::select(is_outside, above, Lanes::select(by_side, zero, one));
@@ -251,20 +256,23 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_solid(const PairTable<Scalar>& 
                                     {columns[0][3], columns[1][0], columns[1][1]},
                                     {columns[1][2], columns[1][3], columns[2][0]}};
   const Vector3<Scalar> offset{columns[2][1], columns[2][2], columns[2][3]};
-  const Vector half[3] = {columns[3][0], columns[3][1], columns[3][2]};
+  // The half extents of a box, else radius, half length and zero.
+  const Vector sizes[3] = {columns[3][0], columns[3][1], columns[3][2]};
   const Vector zero = Lanes::broadcast(0);
   cores.radius_a = columns[3][3];
   cores.radius_b = zero;
-  const Vector size = cores.radius_a + half[0] + half[1] + half[2] + sum_of_sizes<Scalar>(offset);
+  const Vector size =
+      cores.radius_a + sizes[0] + sizes[1] + sizes[2] + sum_of_sizes<Scalar>(offset);
+  const Vector rounding = Lanes::broadcast(unit_roundoff<Scalar>) * size;
   const Vector at[3] = {-dot<Scalar>(edges[0], offset), -dot<Scalar>(edges[1], offset),
                         -dot<Scalar>(edges[2], offset)};
   SolidGap<Scalar> solid;
   if constexpr (kind == ShapeKind::box) {
     cores.error = DistanceError<Scalar>::box * size;
-    look_from_box<Scalar>(at, half, solid);
+    look_from_box<Scalar>(at, sizes, rounding, solid);
   } else {
-    cores.error = DistanceError<Scalar>::turned * size;
-    look_from_turned<Scalar, kind == ShapeKind::cone>(at, half[0], half[1], size, solid);
+    cores.error = DistanceError<Scalar>::revolved * size;
+    look_from_revolved<Scalar, kind == ShapeKind::cone>(at, sizes[0], sizes[1], rounding, solid);
   }
   cores.usable = sized_lanes<Scalar>(size) & orthonormal_lanes<Scalar>(edges);
   cores.normal = {zero, zero, zero};

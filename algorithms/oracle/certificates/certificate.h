@@ -2,8 +2,8 @@
 //
 // A certificate encloses one number, the signed distance s of the two cores: their distance if they
 // are apart, otherwise minus their penetration depth, which is the length of the shortest
-// translation after which they have no interior point in common. The bodies' signed distance is s
-// minus the two radii.
+// translation after which 0 is not in the interior of their difference. The bodies' signed distance is
+// s minus the two radii.
 //
 // Lower bound: any direction n. The gap between the cores' shadows on a line along n is (min n.b -
 // max n.a) / |n|, over all points b and a of the cores; s is at least that. (Apart: n gives a

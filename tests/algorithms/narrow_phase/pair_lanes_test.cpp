@@ -395,7 +395,7 @@ TEST(RestingHulls, EndAtAFace) {
                      " pair " + std::to_string(i));
         const bool is_touching = o.answer == Answer::touching;
         touching += is_touching ? 1u : 0u;
-        at_once += is_touching && o.iterations == 1 ? 1u : 0u;
+        at_once += is_touching && o.iterations <= 2 ? 1u : 0u;
         by_epa += is_touching && o.iterations > 12 ? 1u : 0u;
         ASSERT_TRUE(is_touching || truth.answer == Answer::touching || o.answer == truth.answer);
         if (!is_touching && !asks_for_number(task, o.answer)) continue;
@@ -411,6 +411,50 @@ TEST(RestingHulls, EndAtAFace) {
       // By the face that the hull's centre is in front of, where a corner of the hull is on it.
       EXPECT_GT(at_once, 0) << static_cast<int>(rest);
       EXPECT_LT(by_epa, touching / 4);
+    }
+  }
+}
+
+// A box that its matrix flattens, mirrors or shears has no face with that normal: numbers that are given are numbers.
+TEST(RestingHulls, OnABoxThatIsNoBox) {
+  const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>("gjk");
+  Shape box;
+  box.kind = ShapeKind::box;
+  box.half_extents = {1, 1, 0.1};
+  std::vector<Vec3d> corners;
+  for (int c = 0; c < 8; ++c) {
+    corners.push_back(
+        {(c & 1) != 0 ? 0.5 : -0.5, (c & 2) != 0 ? 0.5 : -0.5, (c & 4) != 0 ? 1. : 0.});
+  }
+  const Shape cube = bare_hull(std::move(corners), 3);
+  Mat3d sheared = Mat3d::Identity();
+  sheared(0, 2) = 0.5;
+  oracle::Oracle oracle;
+  for (const Mat3d& matrix :
+       {Mat3d(Vec3d(1, 1, 0).asDiagonal()), Mat3d(Vec3d(1, 1, 1e-200).asDiagonal()),
+        Mat3d(Vec3d(1, -1, 1).asDiagonal()), Mat3d(Vec3d(1, 1, 2).asDiagonal()), sheared}) {
+    const double top = 0.1 * matrix(2, 2);
+    for (const double gap : {0., 1e-17, 1e-3, -1e-3}) {
+      Pairs pairs;
+      pairs.add(box, {matrix, Vec3d::Zero()}, cube, {Mat3d::Identity(), Vec3d(0.25, 0, top + gap)});
+      const oracle::Solid a(box), b(cube);
+      const oracle::Measure truth = oracle.measure({a, pairs.poses[0]}, {b, pairs.poses[1]});
+      for (const Precision scalar : scalars) {
+        for (const Task task : all_tasks) {
+          const Outcome o = solve(entry, scalar, task, pairs, 1).front();
+          SCOPED_TRACE(std::to_string(top) + " " + std::to_string(gap) + " " +
+                       std::string(to_string(task)));
+          if (o.status != Status::ok) continue;
+          if (o.answer == Answer::touching) {
+            EXPECT_LE(o.lower, truth.upper);
+            EXPECT_GE(o.upper, truth.lower);
+          } else {
+            EXPECT_EQ(o.answer, truth.answer);
+          }
+          if (std::isnan(o.distance)) continue;
+          EXPECT_NEAR(o.normal.norm(), 1, 1e-6);
+        }
+      }
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -263,6 +264,44 @@ std::vector<ProofKind> kinds_of_proofs() {
   const auto all = shapes();
   oracle::Oracle solver;
   const auto any = [&](int most) { return all[static_cast<std::size_t>(random.below(most))]; };
+  // Pairs of hulls and of flat, thin and small bodies, with quaternions, and of two half-spaces.
+  Random draws(23);
+  const std::vector<Shape> odd = {
+      reference::make_hull(
+          std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}),
+      reference::make_hull(std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
+      reference::make_sphere(0),
+      reference::make_cylinder(0, 0.5),
+      reference::make_cylinder(0.5, 0),
+      reference::make_cone(0, 0),
+      reference::make_ellipsoid(0.5, 0.25, 0),
+      reference::make_ellipsoid(0, 0.5, 0)};
+  for (int i = 0; i < 24; ++i) {
+    const auto of_odd = [&] { return odd[static_cast<std::size_t>(draws.below(8))]; };
+    files::StoredCertificate stored{
+        "o",
+        "as-given",
+        of_odd(),
+        draws.below(2) == 0 ? of_odd() : all[static_cast<std::size_t>(draws.below(7))],
+        random_place(draws, 1),
+        random_place(draws, 0.5),
+        {},
+        {},
+        {}};
+    if (i % 3 == 0) stored.shape_a = reference::make_halfspace({0.5, 0.25, 2}, -0.5);
+    if (i % 6 == 0) {
+      stored.shape_b = reference::make_halfspace({-0.5, -0.25, -2}, 0.25);
+      stored.pose_b = stored.pose_a;
+    }
+    const oracle::Solid a(stored.shape_a), b(stored.shape_b);
+    oracle::Body at_a(a, stored.pose_a), at_b(b, stored.pose_b);
+    if (i % 2 == 1) {
+      stored.quaternion_a = {draws.uniform(-1, 1), 0.5, draws.uniform(-1, 1), 0.25};
+      at_a = oracle::Body(a, *stored.quaternion_a, stored.pose_a.translation);
+    }
+    solver.prove(at_a, at_b, stored.certificate);
+    pairs.proofs.push_back({Json::parse(to_json(stored))});
+  }
   for (int i = 0; i < 24; ++i) {
     files::StoredCertificate stored{
         "p", "as-given", any(6), any(7), random_place(random, 1), random_place(random, 1),
@@ -418,7 +457,10 @@ void write_lines(const TemporaryFolder& folder, const std::vector<Json>& lines) 
 // Expects the verifier in Python to prove the same certificates of pairs, and no others.
 void expect_the_same_of_python(const TemporaryFolder& folder, const std::vector<Json>& proofs,
                                const std::vector<bool>& verified) {
-  if (run_shell("python3 --version").status != 0) return;
+  if (run_shell("python3 --version").status != 0) {
+    std::cout << "python3 is not there: its verifier was not run\n";
+    return;
+  }
   std::string text;
   for (const Json& proof : proofs) text += proof.dump() + "\n";
   const auto file = folder.write("all.jsonl", text);
@@ -439,6 +481,43 @@ void expect_the_same_of_python(const TemporaryFolder& folder, const std::vector<
   EXPECT_NE(ran.text.find(std::to_string(count) + " proven"), std::string::npos) << ran.text;
 }
 
+// What it does not know could change what a body is.
+TEST(PythonVerifier, RefusesWhatIsNotInTheFormat) {
+  if (run_shell("python3 --version").status != 0) GTEST_SKIP() << "python3 is not there";
+  const TemporaryFolder folder;
+  const Json proof = kinds_of_proofs()[0].proofs[30][0];
+  const auto verify = [&](const std::string& text) {
+    const auto file = folder.write("proof.jsonl", text);
+    return run_shell("python3 '" + std::string(project_folder) +
+                     "/datasets/certificates/verify.py' '" + file.string() + "'");
+  };
+  const auto changed = [&](const std::function<void(Json&)>& change) {
+    Json other = proof;
+    change(other);
+    return verify(other.dump() + "\n").status;
+  };
+  EXPECT_EQ(verify(proof.dump() + "\n").status, 0);
+  EXPECT_EQ(verify("\xef\xbb\xbf" + proof.dump() + "\r\n").status, 0);
+  for (const char* key : {"quaternion_wxyz", "displacement", "rotation_vector"}) {
+    EXPECT_EQ(changed([&](Json& of) { of["b"][key] = {1, 0, 0, 0}; }), 2) << key;
+  }
+  EXPECT_EQ(changed([](Json& of) { of["a"]["shape"]["margin"] = 1; }), 2);
+  EXPECT_EQ(changed([](Json& of) { of["answer"] = "unknown"; }), 1);
+  EXPECT_EQ(verify("").status, 2);
+  EXPECT_EQ(verify("\n\n").status, 2);
+  EXPECT_EQ(verify("\xff\n" + proof.dump() + "\n").text.find("1 proven, 0 refused, 1 malformed") ==
+                std::string::npos,
+            false);
+  std::string huge = proof.dump() + "\n";
+  huge.replace(huge.find("translation\":["), 14,
+               "translation\":[1" + std::string(400, '0') + ",0,0],\"x\":[");
+  EXPECT_EQ(verify(huge).status, 2);
+  EXPECT_EQ(run_shell("python3 '" + std::string(project_folder) +
+                      "/datasets/certificates/verify.py' /nowhere.jsonl")
+                .status,
+            2);
+}
+
 TEST(MutatedProofs, OfEveryKindThatAreVerifiedAreTrue) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "proof.jsonl";
@@ -453,7 +532,7 @@ TEST(MutatedProofs, OfEveryKindThatAreVerifiedAreTrue) {
       proofs.push_back(lines.back());
       verified.push_back(true);
     }
-    EXPECT_EQ(whole.verified, 24);
+    EXPECT_EQ(whole.verified, static_cast<int>(kind.proofs.size()));
     Random random(22);
     Judged judged;
     for (int i = 0; i < drawn(2000, 100); ++i) {

@@ -148,6 +148,37 @@ TEST(ClosedForm, SphereAndCylinderOrCone) {
   }
 }
 
+// Solids that are points or nearly so, at places whose squares vanish: the numbers stay numbers.
+TEST(ClosedForm, SphereAndWhatIsNearlyAPoint) {
+  int answered = 0;
+  for (const ShapeKind kind : {ShapeKind::box, ShapeKind::cylinder, ShapeKind::cone}) {
+    for (const double size : {0., 1e-30, 1e-22}) {
+      Shape solid;
+      solid.kind = kind;
+      solid.radius = solid.half_length = size;
+      solid.half_extents.setConstant(size);
+      for (const double away : {0., 1e-170, 1e-24, 3e-23, 1e-22, 0.5}) {
+        for (const Vec3d& way : {Vec3d(1, 0, 0), Vec3d(0, 0, 1), Vec3d(0, 0, -1), Vec3d(1, 1, 1)}) {
+          const Pose pose{Mat3d::Identity(), away * way};
+          for (const Precision scalar : scalars) {
+            for (const Task task : all_tasks) {
+              const Outcome o = closed_form(scalar, task, sphere(1), {}, solid, pose);
+              EXPECT_EQ(o.answer, Answer::overlapping);
+              if (!asks_depth(task) || o.status != Status::ok) continue;
+              ++answered;
+              const double precision = scalar == Precision::float32 ? 1e-5 : 1e-13;
+              EXPECT_NEAR(o.distance, away * way.norm() - 1, precision);
+              EXPECT_NEAR(o.normal.norm(), 1, precision) << to_string(kind) << size << away;
+              EXPECT_NEAR((o.witness_b - o.witness_a - o.distance * o.normal).norm(), 0, precision);
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(answered, 500);
+}
+
 // On the ground, on slopes, near and far from the plane's origin, within rounding of contact.
 TEST(ClosedForm, BoxOnAHalfspace) {
   Random random(4);
