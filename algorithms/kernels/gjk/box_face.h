@@ -92,27 +92,28 @@ std::optional<FaceContact<Scalar>> find_box_face_contact(SupportPair<Scalar>& pa
 // The fast iteration `run(goal, start)`. It ends at the first plane if a box and a hull touch there, and then `contact`
 // is set; else it goes on. `goal` says whether it looks for that.
 template <class Scalar, class Run>
-FastGjkResult<Scalar> fast_gjk_from_box(SupportPair<Scalar>& pair, FastGjkGoal goal,
-                                        const FastGjkStart<Scalar>& start, const Run& run,
-                                        std::optional<FaceContact<Scalar>>& contact) {
-  const FastGjkResult<Scalar> first = run(goal, start);
-  if (first.end != FastGjkEnd::at_plane) return first;
+[[gnu::always_inline]] inline FastGjkResult<Scalar> fast_gjk_from_box(
+    SupportPair<Scalar>& pair, FastGjkGoal goal, const FastGjkStart<Scalar>& start, const Run& run,
+    std::optional<FaceContact<Scalar>>& contact) {
+  FastGjkResult<Scalar> found = run(goal, start);
+  if (found.end != FastGjkEnd::at_plane) return found;
   FastGjkStart<Scalar> rest(-pair.centre_b());
-  if (first.lower >= -SupportPair<Scalar>::rounding) {
-    contact = find_box_face_contact(pair, first.simplex.points[0]);
-    if (contact) return first;
-    rest.direction = first.simplex.points[0].difference;
-    rest.simplex = first.simplex;
+  if (found.lower >= -SupportPair<Scalar>::rounding) {
+    contact = find_box_face_contact(pair, found.simplex.points[0]);
+    if (contact) return found;
+    rest.direction = found.simplex.points[0].difference;
+    rest.simplex = found.simplex;
   }
+  const int before = found.iterations;
   goal.first_plane = FirstPlaneStop::never;
-  goal.most_iterations -= first.iterations;
-  FastGjkResult<Scalar> result = run(goal, rest);
-  result.iterations += first.iterations;
-  if (!result.moved && rest.simplex.size > 0) {
-    result.simplex = rest.simplex;
-    result.moved = true;
+  goal.most_iterations -= before;
+  found = run(goal, rest);
+  found.iterations += before;
+  if (!found.moved && rest.simplex.size > 0) {
+    found.simplex = rest.simplex;
+    found.moved = true;
   }
-  return result;
+  return found;
 }
 
 }  // namespace touchstone
