@@ -11,7 +11,6 @@
 #include <cmath>
 #include <optional>
 
-#include "algorithms/kernels/gjk/gjk_iteration.h"
 #include "algorithms/kernels/gjk/simplex_face.h"
 
 namespace touchstone {
@@ -87,33 +86,6 @@ std::optional<FaceContact<Scalar>> find_box_face_contact(SupportPair<Scalar>& pa
   if (!(height <= rounding)) return {};
   contact.lower = std::min(-height, Scalar{0});
   return contact;
-}
-
-// The fast iteration `run(goal, start)`. It ends at the first plane if a box and a hull touch there, and then `contact`
-// is set; else it goes on. `goal` says whether it looks for that.
-template <class Scalar, class Run>
-[[gnu::always_inline]] inline FastGjkResult<Scalar> fast_gjk_from_box(
-    SupportPair<Scalar>& pair, FastGjkGoal goal, const FastGjkStart<Scalar>& start, const Run& run,
-    std::optional<FaceContact<Scalar>>& contact) {
-  FastGjkResult<Scalar> found = run(goal, start);
-  if (found.end != FastGjkEnd::at_plane) return found;
-  FastGjkStart<Scalar> rest(-pair.centre_b());
-  if (found.lower >= -SupportPair<Scalar>::rounding) {
-    contact = find_box_face_contact(pair, found.simplex.points[0]);
-    if (contact) return found;
-    rest.direction = found.simplex.points[0].difference;
-    rest.simplex = found.simplex;
-  }
-  const int before = found.iterations;
-  goal.first_plane = FirstPlaneStop::never;
-  goal.most_iterations -= before;
-  found = run(goal, rest);
-  found.iterations += before;
-  if (!found.moved && rest.simplex.size > 0) {
-    found.simplex = rest.simplex;
-    found.moved = true;
-  }
-  return found;
 }
 
 }  // namespace touchstone

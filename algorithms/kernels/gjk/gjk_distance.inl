@@ -108,22 +108,25 @@ bool run_fast_gjk(SupportPair<Scalar>& pair, const GjkDistanceGoal<Scalar>& goal
                     .most_iterations = goal.most_iterations,
                     .numbered = numbered,
                     .margin = static_cast<double>(goal.margin)};
-  if (goal.ends_at_face && begin.simplex.size == 0 &&
-      is_box_with_hull(pair.a().shape(), pair.b().shape())) {
-    // A depth takes less time if the search starts along the line of centres.
-    first.first_plane =
-        asks_depth(goal.task) ? FirstPlaneStop::near_or_behind : FirstPlaneStop::near_origin;
-  }
-  std::optional<FaceContact<Scalar>> contact;
-  const FastGjkResult<Scalar> quick = fast_gjk_from_box(
-      pair, first, begin,
-      [&](const FastGjkGoal& asked, const FastGjkStart<Scalar>& start) {
-        return Cores::fast_gjk(pair, asked, goal.tolerance, start);
-      },
-      contact);
+  first.ends_at_plane = goal.ends_at_face && begin.simplex.size == 0 &&
+                        is_box_with_hull(pair.a().shape(), pair.b().shape());
+  // A depth takes less time if the search starts along the line of centres.
+  first.ends_behind = asks_depth(goal.task);
+  FastGjkResult<Scalar> quick = Cores::fast_gjk(pair, first, goal.tolerance, begin);
   found.iterations += quick.iterations;
+  if (quick.end == FastGjkEnd::at_plane) {
+    FastGjkStart<Scalar> rest(-pair.centre_b());
+    if (quick.lower >= -SupportPair<Scalar>::rounding) {
+      if (end_at_face(find_box_face_contact(pair, quick.simplex.points[0]), found)) return true;
+      rest.direction = quick.simplex.points[0].difference;
+      rest.simplex = quick.simplex;
+    }
+    first.ends_at_plane = false;
+    first.most_iterations -= quick.iterations;
+    quick = Cores::fast_gjk(pair, first, goal.tolerance, rest);
+    found.iterations += quick.iterations;
+  }
   if (quick.moved) found.simplex = quick.simplex;
-  if (end_at_face(contact, found)) return true;
   if (quick.end == FastGjkEnd::apart) {
     found.lower = quick.lower;
     found.direction = -quick.direction.normalized();
@@ -166,6 +169,7 @@ GjkDistanceResult<Scalar> gjk_distance_by(SupportPair<Scalar>& pair,
   found.lower = -std::numeric_limits<Scalar>::infinity();
   Simplex<Scalar>& simplex = found.simplex;
 
+  // A depth without a look at the first plane takes less time from the line of centres.
   const bool from_centres =
       goal.momentum == Momentum::nesterov || (asks_depth(goal.task) && !goal.ends_at_face);
   FastGjkStart<Scalar> begin(from_centres ? Vec3<Scalar>(-pair.centre_b()) : start_direction(pair));

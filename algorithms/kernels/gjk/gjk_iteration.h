@@ -25,7 +25,7 @@ enum class FastGjkEnd : std::uint8_t {
              // is no search for separation only: proven
   near,      // the simplex's distance is within the tolerance
   inside,    // the tetrahedron contains the origin: proven
-  at_plane,  // the first support plane is where the goal stops (FirstPlaneStop)
+  at_plane,  // the first support plane is at the origin or in front of it, if the goal asks for that
   doubtful,  // rounding or the cap ended the iteration
 };
 
@@ -50,17 +50,14 @@ struct FastGjkStart {
   Simplex<Scalar> simplex;  // may be empty; otherwise only corners of the nearest point's feature
 };
 
-// Whether the iteration stops at its first support plane, where it is no proof: if that is within rounding of the
-// origin, or also if the origin is behind it.
-enum class FirstPlaneStop : std::uint8_t { never, near_origin, near_or_behind };
-
 struct FastGjkGoal {
   bool only_apart = false;  // stop at a plane that separates the bodies
   int most_iterations = 0;
   bool numbered = false;  // the simplex must hold the indices of its corners
   // Stop at a plane that separates the bodies by more than this, in the pair's unit.
   double margin = std::numeric_limits<double>::infinity();
-  FirstPlaneStop first_plane = FirstPlaneStop::never;
+  bool ends_at_plane = false;  // stop if the first support plane is within rounding of the origin
+  bool ends_behind = false;  // with that: stop also if the origin is behind the first support plane
 };
 
 // `tolerance` applies to the distance, in the pair's unit.

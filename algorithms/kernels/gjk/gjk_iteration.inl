@@ -270,10 +270,8 @@ TOUCHSTONE_TARGET void fast_gjk_at(SupportPair<Scalar>& pair, const FastGjkGoal&
     if constexpr (numbered) simplex.corners[simplex.size] = corners;
     simplex.points[simplex.size++] = {point, on_a, on_b};
     found.moved = true;
-    if (goal.first_plane != FirstPlaneStop::never && simplex.size == 1 &&
-        found.lower <= SupportPair<Scalar>::rounding &&
-        (goal.first_plane == FirstPlaneStop::near_or_behind ||
-         found.lower >= -SupportPair<Scalar>::rounding)) {
+    if (goal.ends_at_plane && simplex.size == 1 && found.lower <= SupportPair<Scalar>::rounding &&
+        (goal.ends_behind || found.lower >= -SupportPair<Scalar>::rounding)) {
       found.end = FastGjkEnd::at_plane;
       break;
     }

@@ -148,21 +148,23 @@ void GjkQuery<Scalar>::decide(const CentreOffset& offset, const SupportShape<Sca
     place_corner(pair, plane.corners, begin.simplex);
     begin.direction = begin.simplex.points[0].difference;
   }
-  const FastGjkGoal goal{
-      .only_apart = true,
-      .most_iterations = settings_.gjk_cap - outcome.iterations,
-      .first_plane = may_rest ? FirstPlaneStop::near_origin : FirstPlaneStop::never};
-  std::optional<FaceContact<Scalar>> contact;
-  const FastGjkResult<Scalar> found = fast_gjk_from_box(
-      pair, goal, begin,
-      [&](const FastGjkGoal& asked, const FastGjkStart<Scalar>& start) {
-        return functions_.fast_gjk(pair, asked, tolerance(true), start);
-      },
-      contact);
+  FastGjkGoal goal{.only_apart = true,
+                   .most_iterations = settings_.gjk_cap - outcome.iterations,
+                   .ends_at_plane = may_rest};
+  FastGjkResult<Scalar> found = functions_.fast_gjk(pair, goal, tolerance(true), begin);
   outcome.iterations += found.iterations;
-  if (contact && write_if_touching(pair, *contact, Task::intersect, outcome)) {
-    outcome.support_calls = pair.support_calls();
-    return;
+  if (found.end == FastGjkEnd::at_plane) {
+    const auto contact = find_box_face_contact(pair, found.simplex.points[0]);
+    if (contact && write_if_touching(pair, *contact, Task::intersect, outcome)) {
+      outcome.support_calls = pair.support_calls();
+      return;
+    }
+    goal.ends_at_plane = false;
+    goal.most_iterations -= found.iterations;
+    FastGjkStart<Scalar> rest(found.simplex.points[0].difference);
+    rest.simplex = found.simplex;
+    found = functions_.fast_gjk(pair, goal, tolerance(true), rest);
+    outcome.iterations += found.iterations;
   }
   if (found.end != FastGjkEnd::apart && found.end != FastGjkEnd::inside) {
     if (is_at_a_face(pair, found.simplex, Task::intersect, outcome)) {
