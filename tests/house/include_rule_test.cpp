@@ -37,8 +37,12 @@ const std::vector<SourceFile>& files() {
         if (ending != ".h" && ending != ".cpp" && ending != ".inl") continue;
         SourceFile file{fs::relative(entry.path(), root).string(), "", {}, {}};
         std::ifstream stream(entry.path());
+        bool in_text = false;  // of a program that is written, which is no part of this one
         for (std::string line; std::getline(stream, line);) {
           file.text += line + "\n";
+          const bool begins = line.find("R\"test(") != std::string::npos;
+          in_text = begins || (in_text && line.find(")test\"") == std::string::npos);
+          if (in_text) continue;
           // The expression takes a thousand times as long to find that a line is of another kind.
           if (line.find("include") == std::string::npos) continue;
           std::smatch match;
