@@ -53,4 +53,12 @@ inline std::string shell_word(std::string_view text) {
   return word + "'";
 }
 
+// Replaces each `from` in the text, which is not empty, by `to`.
+inline void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    text.replace(at, from.size(), to);
+    at += to.size();
+  }
+}
+
 }  // namespace touchstone::base

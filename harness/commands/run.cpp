@@ -22,6 +22,7 @@
 #include "harness/commands/program.h"
 #include "harness/commands/run_file.h"
 #include "harness/commands/shared_options.h"
+#include "harness/grade/margins.h"
 #include "harness/kinds/selection.h"
 #include "harness/measure/noise.h"
 #include "harness/record/build_info.h"
@@ -57,7 +58,7 @@ struct RunOptions {
   // These options do a shard of a plan instead.
   std::string plan;
   std::int64_t shard = -1;
-  double depth_error = stats::usual_depth_error;
+  double depth_error = grade::usual_depth_error;
   std::vector<std::string> peers;
 };
 
@@ -277,7 +278,7 @@ std::optional<int> run_other_file(const RunOptions& options, const WholeRun& who
   if (options.tables) of_file.others.emplace_back("--tables");
   if (options.quick) of_file.others.emplace_back("--quick");
   if (!options.peers.empty()) of_file.others.emplace_back("--peer");
-  if (options.depth_error != stats::usual_depth_error) of_file.others.emplace_back("--depth-error");
+  if (options.depth_error != grade::usual_depth_error) of_file.others.emplace_back("--depth-error");
   return whole.run_file(of_file);
 }
 

@@ -4,13 +4,14 @@
 #include <string>
 
 #include "harness/commands/arguments.h"
+#include "harness/grade/margins.h"
 #include "harness/stats/tables/tables.h"
 
 namespace touchstone::commands {
 
 struct ShowOptions {
   std::string results, out;
-  double band = 1.5, depth_error = stats::usual_depth_error;
+  double band = 1.5, depth_error = grade::usual_depth_error;
   bool tables = false, figures = false, noisy = false;
 };
 

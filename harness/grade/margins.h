@@ -38,6 +38,9 @@ double pair_size(const files::Case& c);
 // Returns the size of one shape, by the rule of pair_size.
 double shape_size(const Shape& shape);
 
+// The greatest error of a distance or depth that counts as right, as a part of the pair's size.
+inline constexpr double usual_depth_error = 1e-3;
+
 struct Margins {
   double verdict;     // side of contact, certified bounds
   double length;      // distance, depth

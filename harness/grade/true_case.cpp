@@ -77,6 +77,12 @@ bool is_finite(const oracle::Body& body) {
 
 }  // namespace
 
+files::Case rounded_to_floats(files::Case c) {
+  for (Shape* shape : {&c.shape_a, &c.shape_b}) *shape = rounded(*shape);
+  for (Pose* pose : {&c.pose_a, &c.pose_b}) *pose = rounded(*pose);
+  return c;
+}
+
 struct EncodedPair::Parts {
   Shape shape_a, shape_b;
   Pose pose_a, pose_b;

@@ -34,6 +34,10 @@ class EncodedPair {
   bool finite_;
 };
 
+// The case with each number rounded to float, as by Encoding::float32; a number beyond the range of floats is
+// infinite. Hulls have their vertices alone.
+files::Case rounded_to_floats(files::Case c);
+
 class TrueCase {
  public:
   // The oracle must outlive this object.

@@ -62,7 +62,7 @@ class Merge {
     keep_files_of_others();
     put_in_place();
     result.written = true;
-    replace_all(result.merged.text, temporary_.string(), place_.string());
+    base::replace_all(result.merged.text, temporary_.string(), place_.string());
     return result;
   }
 
@@ -253,13 +253,6 @@ class Merge {
     fs::rename(temporary_, out_, error);
     if (error) fail(error);
     fs::remove_all(old, error);
-  }
-
-  static void replace_all(std::string& text, const std::string& from, const std::string& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
-      text.replace(at, from.size(), to);
-      at += to.size();
-    }
   }
 
   ShardPlan plan_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/grade/margins.h"
 #include "harness/record/findings.h"
 #include "harness/stats/published.h"
 #include "harness/stats/tables/tables.h"
@@ -21,7 +22,7 @@ struct Stop {
 
 struct ReportSetting {
   Noise noise = Noise::left_out;
-  double depth_error = usual_depth_error;
+  double depth_error = grade::usual_depth_error;
   std::vector<std::string> own = {};  // algorithms that the user named: each has a line
   std::optional<Stop> stopped = {};
 };

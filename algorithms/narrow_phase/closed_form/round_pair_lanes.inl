@@ -127,8 +127,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void look_at_segments(const PairTable<Scalar
                 Lanes::abs(dot<Scalar>(cores.normal, half_b));
 }
 
-// Where a point lies to a solid: metres, in the solid's axes. outward * scale is a unit vector. From a point outside
-// it goes to the nearest place of the surface; from that of a point inside to the point.
+// Where a point lies to a solid: metres, in the solid's axes. outward * scale is a unit vector. It leads from a point
+// outside to the nearest place of the surface, and from that place to a point inside.
 template <class Scalar>
 struct SolidGap {
   using Vector = typename Simd<Scalar>::Vector;

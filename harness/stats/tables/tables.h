@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/grade/margins.h"
 #include "harness/stats/samples.h"
 #include "harness/stats/statistics.h"
 
@@ -146,12 +147,9 @@ struct NarrowBestRow {
   Best right_peer, any_peer;
 };
 
-// The greatest error of a distance or depth that counts as right, as a part of the pair's size.
-inline constexpr double usual_depth_error = 1e-3;
-
 struct Tables {
   std::string campaign;
-  double depth_error = usual_depth_error;
+  double depth_error = grade::usual_depth_error;
   std::vector<std::string> machine;  // the facts that identify the machine, "processor: ..."
   std::vector<TimeRow> times;
   std::vector<RatioRow> ratios;
@@ -174,7 +172,8 @@ struct Tables {
 MedianInterval ratio_between(const SampleSet& set, const Contestant& a, const Contestant& b,
                              Noise noise);
 
-Tables make_tables(const Results& results, Noise noise, double depth_error = usual_depth_error);
+Tables make_tables(const Results& results, Noise noise,
+                   double depth_error = grade::usual_depth_error);
 
 // Returns true if a contestant found other pairs than the rest, or gave an answer that the exact
 // one contradicts.

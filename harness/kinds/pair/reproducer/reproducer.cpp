@@ -14,8 +14,8 @@
 #include "harness/base/error.h"
 #include "harness/base/names.h"
 #include "harness/files/json_line.h"
-#include "harness/grade/failures/case_numbers.h"
 #include "harness/grade/margins.h"
+#include "harness/grade/true_case.h"
 #include "harness/kinds/pair/reproducer/library_tests.h"
 
 namespace touchstone::kinds {
@@ -79,13 +79,6 @@ std::string pose_text(const Pose& pose) {
   return fmt::format("{{{{{}}}, {{{}}}}}", numbers_text(rows), numbers_text(pose.translation));
 }
 
-files::Case in_float(files::Case c) {
-  const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
-  grade::change_numbers(c, [&](std::size_t, double x) { return rounded(x); });
-  for (Pose* pose : {&c.pose_a, &c.pose_b}) pose->rotation = pose->rotation.unaryExpr(rounded);
-  return c;
-}
-
 ExpectedAnswer expected_of(const oracle::Measure& truth, const files::Case& c, Task task,
                            const NarrowPhaseEntry& library) {
   const auto has = [&](Task asked) {
@@ -96,7 +89,7 @@ ExpectedAnswer expected_of(const oracle::Measure& truth, const files::Case& c, T
                   : truth.answer == Answer::overlapping ? -1
                                                         : 0;
   expected.number = truth.middle();
-  expected.tolerance = 1e-3 * grade::pair_size(c);
+  expected.tolerance = grade::usual_depth_error * grade::pair_size(c);
   expected.has_distance = expected.side > 0 && asks_distance(task) && has(Task::distance);
   expected.has_depth = expected.side < 0 && asks_depth(task) && has(Task::penetration);
   return expected;
@@ -157,13 +150,9 @@ void check(const char* id, const Body& a, const Pose& pose_a, const Body& b, con
 int main() {
 )test";
 
-void replace_all(std::string& text, std::string_view word, std::string_view by) {
-  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += by.size())
-    text.replace(at, word.size(), by);
-}
-
 // Why the library's test cannot have the case; empty if it can.
-std::string lack(const LibraryTest& test, const NarrowPhaseEntry& library, const files::Case& c) {
+std::string lack(const LibraryTest& test, const NarrowPhaseEntry& library, const files::Case& c,
+                 const grade::EncodedPair& pair) {
   const auto offered = [&](Task task) {
     return offers(library, c.shape_a.kind, c.shape_b.kind, task);
   };
@@ -172,12 +161,13 @@ std::string lack(const LibraryTest& test, const NarrowPhaseEntry& library, const
     if (test.preamble.find(maker) != std::string_view::npos) continue;
     return fmt::format("the library has no {}", to_string(shape.kind));
   }
+  if (!pair.is_finite()) return "a number is beyond the range of floats";
   if (offered(Task::intersect) || offered(Task::penetration)) return "";
   return fmt::format("{} does not take a {} and a {}", test.algorithm, to_string(c.shape_a.kind),
                      to_string(c.shape_b.kind));
 }
 
-// What stands around the cases.
+// What stands before the cases.
 std::string head_of(const LibraryTest& test, const NarrowPhaseEntry& library,
                     const std::filesystem::path& file) {
   std::string text = fmt::format(
@@ -190,10 +180,10 @@ std::string head_of(const LibraryTest& test, const NarrowPhaseEntry& library,
       library.info.citation, test.in_float ? "; all numbers are floats" : "",
       base::shell_word(file.filename().string()), test.compile);
   text += test.preamble;
-  replace_all(text, "SOLVER", test.solver);
+  base::replace_all(text, "SOLVER", test.solver);
   if (!test.is_googletest) {
     std::string end(rest_of_program);
-    replace_all(end, "DEPTH_IS_BOUND", library.traits.depth_is_bound ? "true" : "false");
+    base::replace_all(end, "DEPTH_IS_BOUND", library.traits.depth_is_bound ? "true" : "false");
     text += end;
   }
   return text;
@@ -220,15 +210,15 @@ std::string reproducer(std::string_view algorithm, std::span<const files::Case> 
   std::size_t number = 0;
   std::string left_out;
   for (const files::Case& given : cases) {
-    const files::Case c = test->in_float ? in_float(given) : given;
-    left_out = lack(*test, *library, c);
+    const files::Case c = test->in_float ? grade::rounded_to_floats(given) : given;
+    const grade::EncodedPair pair(c, Encoding::as_given);
+    left_out = lack(*test, *library, c, pair);
     if (!left_out.empty()) {
       text += fmt::format("  // Case {} is left out: {}.\n", files::Json(c.id).dump(), left_out);
       continue;
     }
     ++number;
-    const oracle::Solid a(c.shape_a), b(c.shape_b);
-    const oracle::Measure truth = oracle.measure({a, c.pose_a}, {b, c.pose_b});
+    const oracle::Measure truth = oracle.measure(pair.a(), pair.b());
     const ExpectedAnswer expected = expected_of(truth, c, task, *library);
     if (test->is_googletest) text += fmt::format("\nTEST(ExactPairs, Case{}) {{\n", number);
     text += reason_text(truth, expected);

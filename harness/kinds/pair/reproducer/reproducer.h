@@ -16,7 +16,7 @@ namespace touchstone::kinds {
 std::string names_with_reproducers();
 
 // The text of the test, which fails if the library is on the wrong side of contact, or a number that the task
-// asks for is off by more than a thousandth of the pair's size, as in the summary of a run. `file` is its name, for
+// asks for is off by more than usual_depth_error of the pair's size, as in the summary of a run. `file` is its name, for
 // the line that compiles it. The cases are rounded to the library's numbers first. Cases with shapes that the library
 // does not take are left out, with a comment. Throws InputError for an algorithm that has no such form, and if no
 // case is left.
