@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "algorithms/core/double_double.h"
+#include "algorithms/core/pose.h"
 #include "algorithms/core/vec.h"
 
 namespace touchstone::base {
@@ -73,6 +74,12 @@ inline Mat3d product(const Mat3d& a, const Mat3d& b) {
     for (int j = 0; j < 3; ++j) c(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
   }
   return c;
+}
+
+// The pose `inner`, which is relative to `around`, where that is.
+inline Pose placed(const Pose& around, const Pose& inner) {
+  return {product(around.rotation, inner.rotation),
+          times(around.rotation, inner.translation) + around.translation};
 }
 
 // The rotation of a nonzero quaternion (w, x, y, z) of any length. Exact for quarter turns.

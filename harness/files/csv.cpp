@@ -125,8 +125,8 @@ void CsvReader::Row::fail(const std::string& message) const {
 }
 
 CsvReader::CsvReader(std::filesystem::path file, std::vector<std::string> columns,
-                     const std::vector<std::string>& optional)
-    : file_(std::move(file)), columns_(std::move(columns)), optional_(optional) {
+                     const std::vector<std::string>& optional, Others others)
+    : file_(std::move(file)), columns_(std::move(columns)), optional_(optional), others_(others) {
   for (const std::string& name : optional_) {
     if (std::ranges::find(columns_, name) == columns_.end()) columns_.push_back(name);
   }
@@ -153,6 +153,14 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
   current.reader_ = this;
   const auto read_header = [&](std::int64_t line, std::span<const std::string> header) {
     width = header.size();
+    for (const std::string& column : header) {
+      if (others_ == Others::ignored || std::ranges::find(columns_, column) != columns_.end()) {
+        continue;
+      }
+      throw base::InputError(file, line,
+                             fmt::format("column '{}'; expected none but {}",
+                                         base::shortened(column), fmt::join(columns_, ",")));
+    }
     for (const std::string& column : columns_) {
       const auto at = std::ranges::find(header, column);
       if (at == header.end()) {

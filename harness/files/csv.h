@@ -38,11 +38,13 @@ class CsvReader {
     std::int64_t line_ = 0;
   };
 
+  enum class Others : std::uint8_t { ignored, refused };
+
   // The columns must be in the header, in any order, except those in `optional`, which are empty if
-  // the header lacks them. The header may have more columns. A row's columns are numbered in the
+  // the header lacks them. `others` says what becomes of further columns of the header. A row's columns are numbered in the
   // order of `columns`, followed by the optional ones that are not among them.
   CsvReader(std::filesystem::path file, std::vector<std::string> columns,
-            const std::vector<std::string>& optional = {});
+            const std::vector<std::string>& optional = {}, Others others = Others::ignored);
   // Calls `row` for each line after the header, in order. Throws InputError for a line whose number
   // of fields differs from the header's.
   void read(const std::function<void(const Row&)>& row) const;
@@ -54,6 +56,7 @@ class CsvReader {
   std::filesystem::path file_;
   std::vector<std::string> columns_;
   std::vector<std::string> optional_;
+  Others others_;
 };
 
 // Appends one field, quoted if necessary; for CSV that goes to a terminal or a pipe.

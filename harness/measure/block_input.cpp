@@ -162,7 +162,7 @@ std::vector<ConcaveBody> concave_bodies(const scene::Scene& scene) {
 }
 
 BlockInput::BlockInput(const scene::Scene& scene, scene::BoxKind kind, bool with_poses)
-    : shapes(scene.shapes) {
+    : shapes(scene.shapes), filter(scene.filter) {
   for (const scene::Body& body : scene.bodies) shape_of.push_back(body.shape);
   if (!scene.concave.empty()) {
     bodies = concave_bodies(scene);
@@ -275,7 +275,15 @@ std::vector<NarrowSet> narrow_sets(const BlockInput& input, const std::string& b
                                    std::span<const std::vector<IndexPair>> pairs,
                                    std::span<const record::QueryTask> tasks) {
   Sets sets(input, pairs.size());
-  for (std::size_t frame = 0; frame < pairs.size(); ++frame) sets.add(frame, pairs[frame]);
+  for (std::size_t frame = 0; frame < pairs.size(); ++frame) {
+    if (input.filter.is_empty()) {
+      sets.add(frame, pairs[frame]);
+    } else {
+      std::vector<IndexPair> asked = pairs[frame];
+      input.filter.apply(asked);
+      sets.add(frame, asked);
+    }
+  }
   return sets.sets(broad, tasks);
 }
 

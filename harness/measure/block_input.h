@@ -58,6 +58,7 @@ struct BlockInput {
   std::vector<std::string_view> kinds;
   std::vector<std::uint32_t> shape_of;
   std::vector<BlockFrame> frames;
+  scene::PairFilter filter;  // of the pairs for narrow phases
 };
 
 // The pairs of one kind that one source finds; narrow phases or concave phases solve them together.
@@ -77,7 +78,7 @@ struct NarrowSet {
 };
 
 // Returns one set for each kind of pairs that occurs and task that phases for such pairs may have;
-// `pairs` holds those of each frame.
+// `pairs` holds those of each frame, of which the scene's filter leaves out some.
 std::vector<NarrowSet> narrow_sets(const BlockInput& input, const std::string& broad,
                                    std::span<const std::vector<IndexPair>> pairs,
                                    std::span<const record::QueryTask> tasks);

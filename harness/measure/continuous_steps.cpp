@@ -125,6 +125,7 @@ void ContinuousSteps::play() {
       throw base::InputError("the broad phase '" + choice_.broad->info.name +
                              "' found not all pairs; expected one that does");
     }
+    input_->filter.apply(pairs_);
     group(motions, steps_[i]);
     cast(motions, steps_[i]);
   }

@@ -109,8 +109,10 @@ void DiscreteSteps::search(bool is_first) {
 }
 
 void DiscreteSteps::look(StepAnswer& answer) {
+  std::vector<IndexPair> asked = found_.gather();
+  input_->filter.apply(asked);
   const std::vector<grade::PairGroup> groups =
-      grade::group_by_kind(found_.gather(), input_->shapes, input_->shape_of);
+      grade::group_by_kind(asked, input_->shapes, input_->shape_of);
   for (const grade::PairGroup& group : groups) {
     answer.pairs += group.size();
     const auto taker = std::ranges::find_if(choice_.narrow, [&](const NarrowPhaseEntry* entry) {

@@ -24,6 +24,7 @@ MotionInput motion_input(const scene::Scene& scene, const std::filesystem::path&
   MotionInput input;
   input.steps = scene::motion_steps(scene, file);
   input.shapes = scene.shapes;
+  input.filter = scene.filter;
   for (const scene::Body& body : scene.bodies) input.shape_of.push_back(body.shape);
   if (!is_linear) return input;
   for (scene::MotionStep& step : input.steps) {

@@ -28,6 +28,7 @@ struct MotionInput {
   std::vector<Shape> shapes;
   std::vector<std::uint32_t> shape_of;  // for each body
   std::vector<scene::MotionStep> steps;
+  scene::PairFilter filter;
 
   std::size_t bodies() const { return shape_of.size(); }
   ShapeKind kind_of(std::uint32_t body) const { return shapes[shape_of[body]].kind; }

@@ -16,6 +16,7 @@ namespace touchstone::report {
 
 ScenePairs::ScenePairs(const measure::BlockInput& input) : input_(&input) {
   for (const measure::BlockFrame& frame : input.frames) {
+    std::size_t asked = frame.truth.size();
     if (input.shapes.empty()) {  // boxes alone: their pairs have no kind
       grade::PairGroup& all = groups_.emplace_back().emplace_back();
       for (const IndexPair& pair : frame.truth) {
@@ -24,6 +25,8 @@ ScenePairs::ScenePairs(const measure::BlockInput& input) : input_(&input) {
       }
     } else {
       std::vector<IndexPair> convex = frame.truth;
+      input.filter.apply(convex);
+      asked = convex.size();
       const auto concave = std::ranges::stable_partition(convex, [&](const IndexPair& pair) {
         return !input.is_concave(pair.a) && !input.is_concave(pair.b);
       });
@@ -32,7 +35,7 @@ ScenePairs::ScenePairs(const measure::BlockInput& input) : input_(&input) {
       groups_.push_back(grade::group_by_kind(convex, input.shapes, input.shape_of));
     }
     concave_.resize(groups_.size());
-    starts_.push_back(starts_.back() + frame.truth.size());
+    starts_.push_back(starts_.back() + asked);
   }
 }
 

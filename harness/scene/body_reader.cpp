@@ -69,7 +69,7 @@ class BodyReader {
         named_.emplace(name, add(shape));
       }
     }
-    std::vector<std::int64_t> lines;
+    std::vector<std::int64_t> lines(scene_.bodies.size(), 0);
     for (files::TomlTable& body : table_.tables("body")) {
       read_body(body);
       lines.resize(scene_.bodies.size(), body.line());
@@ -135,10 +135,16 @@ class BodyReader {
     body.velocity = table.vector("velocity", files::any_number, Vec3d::Zero());
     body.angular_velocity = table.vector("angular_velocity", files::any_number, Vec3d::Zero());
     body.moving = table.boolean("moving", !halfspace);
+    const std::string name = table.text("name", "");
+    const std::size_t before = scene_.bodies.size();
     if (parts) {
       add_parts(table, body);
     } else {
       scene_.bodies.push_back(body);
+    }
+    if (!name.empty() || !scene_.names.empty()) {
+      scene_.names.resize(before);
+      scene_.names.resize(scene_.bodies.size(), name);
     }
     table.finish();
   }

@@ -16,7 +16,7 @@ namespace touchstone::scene {
 Pose read_pose(files::TomlTable& table);
 
 // Reads [shapes.NAME] and [[body]] (datasets/README.md) into the scene. Returns the line of each
-// body. Throws InputError with the place.
+// body, 0 of those that were there before. Throws InputError with the place.
 std::vector<std::int64_t> read_bodies(files::TomlTable& table, ShapeReader& shapes, Scene& scene);
 
 }  // namespace touchstone::scene

@@ -45,6 +45,16 @@ void reflect(double low, double high, double acceleration, double& x, double& ve
   x = mirrored;
 }
 
+// The rotation vector (radians, world) of the least turn that takes the rotation `from` to `to`.
+Vec3d turn_between(const Mat3d& from, const Mat3d& to) {
+  const Mat3d turn = base::product(to, from.transpose());
+  const Eigen::Quaterniond q(turn);  // of unit length up to rounding
+  const double sine = base::length(q.vec());
+  if (!(sine > 0)) return Vec3d::Zero();
+  const double half = std::atan2(sine, std::abs(q.w()));
+  return (2 * half / sine * (q.w() < 0 ? -1 : 1)) * q.vec();
+}
+
 }  // namespace
 
 Kinematics::Kinematics(const Scene& scene) : scene_(&scene) {
@@ -56,10 +66,11 @@ Kinematics::Kinematics(const Scene& scene) : scene_(&scene) {
   }
   const Motion& motion = scene.motion;
   if (motion.teleports == 0 && motion.churn == 0) return;
+  const std::vector<std::uint32_t>& tracked = scene.tracks.bodies;
   for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
     if (i >= scene.size()) {
       absent_.push_back(i);
-    } else if (scene.bodies[i].moving) {
+    } else if (scene.bodies[i].moving && !std::ranges::binary_search(tracked, i)) {
       movers_.push_back(i);
     }
   }
@@ -106,6 +117,20 @@ void Kinematics::kick_some() {
   }
 }
 
+void Kinematics::follow_tracks() {
+  const Tracks& tracks = scene_->tracks;
+  if (tracks.bodies.empty()) return;
+  const std::size_t frame = std::min(static_cast<std::size_t>(frame_), tracks.frames() - 1);
+  const std::size_t before = std::min(static_cast<std::size_t>(frame_ - 1), frame);
+  for (std::size_t k = 0; k < tracks.bodies.size(); ++k) {
+    const std::uint32_t body = tracks.bodies[k];
+    const Pose& pose = tracks.poses[frame * tracks.bodies.size() + k];
+    const Pose& last = tracks.poses[before * tracks.bodies.size() + k];
+    velocities_[body] = (pose.translation - last.translation) / scene_->motion.time_step;
+    poses_[body] = pose;
+  }
+}
+
 void Kinematics::next() {
   const Motion& motion = scene_->motion;
   if (motion.kind == MotionKind::brownian && !poses_.empty()) kick_some();
@@ -129,6 +154,7 @@ void Kinematics::next() {
       poses_[i].rotation = base::product(base::rotation_over(w, frame_ * dt), body.pose.rotation);
     }
   }
+  follow_tracks();
   if (movers_.empty()) return;
   // The seed differs from that of the new velocities.
   base::Random random(~motion.seed, static_cast<std::uint64_t>(frame_));
@@ -157,6 +183,10 @@ std::vector<MotionStep> motion_steps(const Scene& scene, const std::filesystem::
       if (!body.moving) continue;
       step.motions[i].displacement = kinematics.poses()[i].translation - step.poses[i].translation;
       step.motions[i].rotation_vector = scene.motion.time_step * body.angular_velocity;
+    }
+    for (const std::uint32_t i : scene.tracks.bodies) {
+      step.motions[i].rotation_vector =
+          turn_between(step.poses[i].rotation, kinematics.poses()[i].rotation);
     }
   }
   return steps;

@@ -19,7 +19,9 @@ namespace touchstone::scene {
 // Orientations are computed from frame 0, so that no error accumulates: rotation(frame) = exp(frame
 // * time_step * w) * rotation.
 //
-// Afterwards some of the moving bodies may exchange places, in a random cycle, each with its own
+// Bodies with tracks are at their poses, and their velocities are those of the step that led there.
+//
+// Afterwards some of the other moving bodies may exchange places, in a random cycle, each with its own
 // orientation and velocity. Some may leave while as many arrive in their places: at frame 1 those
 // that were never present, later those that left in the previous frame, each with its own shape. So
 // the distribution of places stays that of the scene, and ids are reused.
@@ -35,6 +37,7 @@ class Kinematics {
 
  private:
   void kick_some();
+  void follow_tracks();
   void exchange_places(base::Random& random);
   void replace_some(base::Random& random);
   // Moves `count` random elements of movers_ to its front, in random order.
@@ -58,7 +61,8 @@ struct MotionStep {
 
 // Returns a step for each frame, from it to the next: as many steps as the scene has frames. In a
 // step a body goes straight to its place in the next frame, also where that is on a curve or behind a
-// wall's reflection, and turns evenly by its angular velocity. Throws InputError with the name of the
+// wall's reflection, and turns evenly by its angular velocity; on a track, by the least turn that leads to its next
+// attitude. The last step leaves bodies on tracks where they are. Throws InputError with the name of the
 // file if the scene has no bodies, or if they jump, arrive or leave.
 std::vector<MotionStep> motion_steps(const Scene& scene, const std::filesystem::path& file);
 

@@ -56,6 +56,25 @@ struct Motion {
   std::size_t churn = 0;
 };
 
+// Which pairs of bodies narrow phases are asked: all, but for some. Broad phases find all pairs of boxes.
+struct PairFilter {
+  std::vector<IndexPair> ignored;  // sorted, a < b
+  std::vector<char> rests;         // by body: no pair of two of these is asked; empty: none is
+
+  bool is_empty() const { return ignored.empty() && rests.empty(); }
+  bool asks(const IndexPair& pair) const;
+  // Leaves the pairs that are asked.
+  void apply(std::vector<IndexPair>& pairs) const;
+};
+
+// Poses of some bodies in each frame. In others than these frames they stay at the last ones.
+struct Tracks {
+  std::vector<std::uint32_t> bodies;  // ascending
+  std::vector<Pose> poses;            // frame by frame, one a body each
+
+  std::size_t frames() const { return bodies.empty() ? 0 : poses.size() / bodies.size(); }
+};
+
 struct Scene {
   std::string name;  // the file's stem, unless the file gives a name
   std::vector<Shape> shapes;
@@ -76,6 +95,10 @@ struct Scene {
   // The pairs for narrow phases, sorted, a < b, in a scene that lists them instead of using a broad
   // phase; equal in every frame. Otherwise empty.
   std::vector<IndexPair> pairs;
+  PairFilter filter;
+  Tracks tracks;  // of bodies that follow their poses in place of their velocities
+  // The names of the bodies, if any has one: of a robot's, that of its link. Bodies may share a name.
+  std::vector<std::string> names;
   // The files that it was read from: its own, one that it imports, meshes.
   std::vector<std::filesystem::path> files;
 

@@ -12,7 +12,10 @@
 #include "harness/scene/box_frames.h"
 #include "harness/scene/generators/generators.h"
 #include "harness/scene/generators/options.h"
+#include "harness/scene/pair_filter.h"
+#include "harness/scene/pose_log.h"
 #include "harness/scene/rigid_ipc.h"
+#include "harness/scene/robot/robot_scene.h"
 #include "harness/scene/scene.h"
 #include "harness/scene/shape_reader.h"
 
@@ -22,6 +25,7 @@ namespace {
 constexpr std::int64_t most_bodies = 100'000'000;
 constexpr std::int64_t most_frames = 1'000'000;
 constexpr int generated_frames = 10;
+constexpr std::string_view robot_ending = ".urdf";
 constexpr double broadmark_gravity = 0.0981;  // world sides per second squared
 constexpr double broadmark_period = 6.2;      // seconds
 
@@ -121,13 +125,35 @@ Scene import_scene(const std::filesystem::path& file, const MeshUses& uses) {
       file.string(), 0,
       file.extension() == ".jsonl"
           ? "holds single pairs; `touchstone query FILE --page OUT.html` draws them"
-          : "unknown kind of file; expected .toml, .json (rigid-ipc) or .aabbs (Broadmark)");
+          : "unknown kind of file; expected .toml, .json (rigid-ipc), .urdf (a robot) or .aabbs "
+            "(Broadmark)");
+}
+
+// Adds the bodies of a scene behind those of another. Its motion is that of the other one.
+void append(Scene from, Scene& to) {
+  const auto shapes = static_cast<std::uint32_t>(to.shapes.size());
+  const auto bodies = static_cast<std::uint32_t>(to.bodies.size());
+  for (std::size_t i = 0; i < from.shapes.size(); ++i) {
+    to.add_shape(std::move(from.shapes[i]), i < from.meshes.size() ? from.meshes[i] : nullptr,
+                 i < from.concave.size() ? from.concave[i] : nullptr);
+  }
+  for (Body body : from.bodies) {
+    body.shape += shapes;
+    to.bodies.push_back(body);
+  }
+  if (!to.names.empty() || !from.names.empty()) {
+    to.names.resize(bodies);
+    from.names.resize(from.bodies.size());
+    std::ranges::move(from.names, std::back_inserter(to.names));
+  }
+  std::ranges::move(from.files, std::back_inserter(to.files));
 }
 
 // Sets the number of frames; for a recording it keeps the first ones.
 void set_frames(const std::string& file, std::int64_t line, std::int64_t frames, Scene& scene) {
   const auto recorded = static_cast<std::int64_t>(scene.recording.size());
-  const std::int64_t most = recorded > 0 ? recorded : most_frames;
+  const auto tracked = static_cast<std::int64_t>(scene.tracks.frames());
+  const std::int64_t most = recorded > 0 ? recorded : tracked > 1 ? tracked : most_frames;
   if (frames < 1 || frames > most) {
     throw base::InputError(file, line, fmt::format("{} frames; expected 1 to {}", frames, most));
   }
@@ -150,48 +176,72 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   files::TomlTable table(content, file, "");
   const MeshUses uses = read_mesh_uses(table, instead);
   ShapeReader shapes(path.parent_path(), table.text("get", ""), uses);
-  constexpr std::string_view forms[] = {"generator", "body", "import"};
-  const auto given = std::count_if(std::begin(forms), std::end(forms),
-                                   [&](std::string_view key) { return table.contains(key); });
-  if (given != 1) {
-    table.fail(given == 0                 ? "scene"
-               : table.contains("import") ? "import"
-                                          : "body",
-               given == 0 ? "missing; expected generator = \"...\", [[body]] or import = \"...\""
-                          : "found more than one of generator, [[body]] and import; expected one");
+  const bool imports = table.contains("import"), lists = table.contains("body");
+  const bool generates = table.contains("generator");
+  if (!imports && !lists && !generates) {
+    table.fail("scene", "missing; expected generator = \"...\", [[body]] or import = \"...\"");
   }
 
+  // Generated bodies come last, since those that arrive later are the last ones.
   Scene scene;
   int frames = 1;
-  if (table.contains("generator")) {
-    scene = generate(table, shapes, overrides);
-    frames = scene.pairs.empty() ? generated_frames : 1;
-  } else {
-    if (table.contains("body")) {
-      lines = read_bodies(table, shapes, scene);
+  bool is_robot = false;
+  if (imports) {
+    const std::filesystem::path imported =
+        shapes.existing_file(table, "import", "a .toml, .json, .urdf or .aabbs file");
+    is_robot = imported.extension() == robot_ending;
+    if (is_robot) {
+      scene = import_robot(table, imported, uses.own.value_or(MeshUse::surface), overrides);
+    } else if (imported.extension() == ".toml") {
+      expect_listed(imported);
+      std::vector<std::int64_t> theirs;
+      scene = read_toml(imported, {}, theirs, uses.instead ? uses.instead : uses.own);
     } else {
-      const std::filesystem::path imported =
-          shapes.existing_file(table, "import", "a .toml, .json or .aabbs file");
-      if (imported.extension() == ".toml") {
-        expect_listed(imported);
-        std::vector<std::int64_t> theirs;
-        scene = read_toml(imported, {}, theirs, uses.instead ? uses.instead : uses.own);
-      } else {
-        scene = import_scene(imported, uses);
-      }
-      frames = scene.frames;
-      scene.files.push_back(imported);
+      scene = import_scene(imported, uses);
     }
+    frames = scene.frames;
+    if (!is_robot) scene.files.push_back(imported);
+    if (!scene.recording.empty() && (lists || generates)) {
+      table.fail("import", "a recording of boxes beside bodies; expected it alone");
+    }
+  }
+  if (lists) lines = read_bodies(table, shapes, scene);
+  if (generates) {
+    Scene made = generate(table, shapes, overrides);
+    const bool has_others = imports || lists;
+    if (has_others && !made.pairs.empty()) {
+      table.fail("generator", "found \"pairs\" beside other bodies; expected it alone");
+    }
+    if (!imports) frames = made.pairs.empty() ? generated_frames : 1;
+    scene.motion = made.motion;
+    if (has_others) {
+      append(std::move(made), scene);
+    } else {
+      scene = std::move(made);
+    }
+  } else {
     if (!table.boolean("moving", true)) {
       for (Body& body : scene.bodies) body.moving = false;
     }
     refuse_for_listed(file, overrides);
     if (scene.recording.empty()) {
-      read_motion_of_listed(table, overrides, scene);
+      // The seed of a robot's configurations is that of the scene.
+      SceneOverrides of_motion = overrides;
+      if (is_robot) of_motion.seed = -1;
+      read_motion_of_listed(table, of_motion, scene);
     } else {
       refuse_seed(file, overrides.seed);
     }
   }
+  if (scene.recording.empty() && scene.pairs.empty() && table.has("poses")) {
+    if (scene.motion.churn > 0 || scene.motion.teleports > 0) {
+      table.fail("poses", "given beside teleports or churn; expected bodies that stay");
+    }
+    scene.files.push_back(shapes.existing_file(table, "poses", "a .csv file of poses"));
+    read_pose_log(scene.files.back(), scene);
+    frames = scene.frames;
+  }
+  if (scene.recording.empty() && scene.pairs.empty()) read_filter(table, !is_robot, scene);
   for (std::filesystem::path& mesh : shapes.files()) scene.files.push_back(std::move(mesh));
   scene.name = table.text("name", path.stem().string());
   const std::int64_t asked = table.integer("frames", 1, most_frames, frames);
@@ -220,12 +270,24 @@ void check_range(const std::string& file, std::span<const std::int64_t> lines, c
     const bool bounded = shape.kind != ShapeKind::halfspace;
     reach.push_back(bounded ? 2 * loose_reach(shape, Mat3d::Identity()) : 0);
   }
+  // The place among the tracks; behind all of them for a body without one.
+  const auto tracked = [&scene](std::size_t body) {
+    const std::vector<std::uint32_t>& bodies = scene.tracks.bodies;
+    const auto at = std::ranges::lower_bound(bodies, body);
+    return at != bodies.end() && *at == body ? static_cast<std::size_t>(at - bodies.begin())
+                                             : scene.tracks.poses.size();
+  };
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     double farthest = body.pose.translation.cwiseAbs().maxCoeff() + reach[body.shape];
     if (body.moving) {
       const double speed = std::max(body.velocity.cwiseAbs().maxCoeff(), motion.speed);
       farthest += (speed + motion.acceleration * time) * time;
+    }
+    for (std::size_t at = tracked(i); at < scene.tracks.poses.size();
+         at += scene.tracks.bodies.size()) {
+      farthest = std::max(
+          farthest, scene.tracks.poses[at].translation.cwiseAbs().maxCoeff() + reach[body.shape]);
     }
     const double turn = body.angular_velocity.cwiseAbs().maxCoeff() * time;
     if (farthest <= most && turn <= most) continue;
@@ -242,7 +304,7 @@ void check_walls(const std::string& file, std::span<const std::int64_t> lines, c
   const Motion& motion = scene.motion;
   if (!(motion.wall_min.x() <= motion.wall_max.x())) return;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (!scene.bodies[i].moving) continue;
+    if (!scene.bodies[i].moving || std::ranges::binary_search(scene.tracks.bodies, i)) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const double x = scene.bodies[i].pose.translation[axis];
       if (x >= motion.wall_min[axis] && x <= motion.wall_max[axis]) continue;
@@ -261,12 +323,20 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
   const std::string file = path.string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw base::InputError(file, 0, "no such file; expected a scene: .toml, .json or .aabbs");
+    throw base::InputError(file, 0,
+                           "no such file; expected a scene: .toml, .json, .urdf or .aabbs");
   }
   Scene scene;
   std::vector<std::int64_t> lines;
   if (path.extension() == ".toml") {
     scene = read_toml(path, overrides, lines);
+  } else if (path.extension() == robot_ending) {
+    const toml::table nothing;
+    files::TomlTable table(nothing, file, "");
+    scene = import_robot(table, path, MeshUse::surface, overrides);
+    refuse_for_listed(file, overrides);
+    ignore_fixed_pairs(scene);
+    if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
   } else {
     scene = import_scene(path, {});
     refuse_for_listed(file, overrides);
@@ -274,7 +344,7 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
     scene.name = path.stem().string();
     if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
   }
-  scene.files.push_back(path);
+  if (path.extension() != robot_ending) scene.files.push_back(path);
   if (overrides.gap) {
     const double gap = *overrides.gap;
     scene.name += fmt::format(" {} {}", gap < 0 ? "depth" : "gap", std::abs(gap));

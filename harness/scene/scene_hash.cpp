@@ -121,6 +121,10 @@ std::string scene_hash(const Scene& scene) {
     hash.add(body.angular_velocity);
   }
   for (const IndexPair& pair : scene.pairs) hash.add((std::uint64_t{pair.a} << 32) | pair.b);
+  for (const IndexPair& pair : scene.filter.ignored) {
+    hash.add((std::uint64_t{pair.a} << 32) | pair.b);
+  }
+  for (const char rests : scene.filter.rests) hash.add(std::uint64_t{rests != 0});
   Kinematics kinematics(scene);
   while (kinematics.frame() + 1 < scene.frames) {
     kinematics.next();

@@ -34,7 +34,7 @@ Vec3d direction(const std::string& view) {
 }
 
 // Pairs with a body that does not move count if `with_fixed` is true: all that stands on a floor is
-// in contact with it.
+// in contact with it. They count too where the scene itself leaves out pairs of two such bodies.
 std::vector<draw::BodyState> states_of(const scene::Scene& scene, const scene::ScenePlayer& player,
                                        bool with_fixed) {
   std::vector<draw::BodyState> states(player.boxes().size(), draw::BodyState::apart);
@@ -45,7 +45,8 @@ std::vector<draw::BodyState> states_of(const scene::Scene& scene, const scene::S
   broad->build(player.boxes());
   broad->find_pairs(sink);
   std::vector<IndexPair> pairs = sink.gather();
-  if (!with_fixed && !scene.bodies.empty()) {
+  scene.filter.apply(pairs);
+  if (!with_fixed && !scene.bodies.empty() && scene.filter.rests.empty()) {
     std::erase_if(pairs, [&](const IndexPair& pair) {
       return !scene.bodies[pair.a].moving || !scene.bodies[pair.b].moving;
     });

@@ -13,6 +13,7 @@
 #include "harness/files/csv.h"
 #include "harness/scene/box_frames.h"
 #include "harness/scene/player.h"
+#include "harness/scene/pose_log.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone::commands {
@@ -21,6 +22,7 @@ namespace {
 struct RecordOptions {
   std::string scene, out;
   scene::BoxKind boxes = scene::BoxKind::tight;
+  bool poses = false;
   scene::SceneOverrides overrides;
 };
 
@@ -66,11 +68,22 @@ void record(const RecordOptions& options) {
   }
   const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
   files::check_outputs(scene.inputs(), std::vector<files::NamedFile>{{"--out", options.out}});
-  if (!csv && scene.motion.churn > 0) {
+  if ((!csv || options.poses) && scene.motion.churn > 0) {
     throw base::InputError(
         options.scene, 0,
-        "bodies come and go in this scene, and Broadmark's format has the same ones in "
-        "every frame; expected --out with a name ending in .csv");
+        options.poses ? "bodies come and go in this scene; expected bodies that stay for --poses"
+                      : "bodies come and go in this scene, and Broadmark's format has the same "
+                        "ones in every frame; expected --out with a name ending in .csv");
+  }
+  if (options.poses) {
+    if (!csv || !scene.recording.empty()) {
+      throw base::InputError(
+          "--poses: expected a scene with bodies, and --out with a name ending in .csv");
+    }
+    const int frames = scene::write_pose_log(scene, out);
+    fmt::print("{}: scene {} ({}), {} bodies, {} frames\n", options.out, scene.name,
+               scene::scene_hash(scene), scene.size(), frames);
+    return;
   }
   scene::ScenePlayer player(scene, options.boxes);
   const std::size_t count = player.boxes().size();
@@ -100,6 +113,8 @@ void add_scene_record(Arguments command) {
       .one_of("--boxes", options->boxes, box_choices(),
               "Tight boxes, or loose ones that hold any attitude")
       .show_default("tight");
+  command.flag("--poses", options->poses,
+               "The poses of the bodies in place of their boxes, as a scene's `poses` reads them");
   command.job([options] {
     record(*options);
     return exit_done;

@@ -11,6 +11,7 @@
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
 #include "harness/base/random.h"
+#include "harness/base/reproducible_math.h"
 #include "harness/files/toml_table.h"
 #include "harness/scene/kinematics.h"
 #include "harness/stats/statistics.h"
@@ -39,17 +40,42 @@ std::optional<scene::Scene> with_seed(const TradeRequest& request, std::int64_t 
   }
 }
 
+// Moves each pose of a track by this part of its step to the next one. Returns whether one moves.
+bool begin_tracks_later(double part, scene::Scene& scene) {
+  scene::Tracks& tracks = scene.tracks;
+  if (tracks.bodies.empty()) return false;
+  const std::vector<scene::MotionStep> steps = scene::motion_steps(scene, scene.name);
+  bool moves = false;
+  for (std::size_t frame = 0; frame < std::min(tracks.frames(), steps.size()); ++frame) {
+    for (std::size_t k = 0; k < tracks.bodies.size(); ++k) {
+      const std::uint32_t body = tracks.bodies[k];
+      const touchstone::Motion& motion = steps[frame].motions[body];
+      Pose& pose = tracks.poses[frame * tracks.bodies.size() + k];
+      moves = moves || motion.turns() || !motion.displacement.isZero(0);
+      pose.translation += part * motion.displacement;
+      pose.rotation =
+          base::product(base::rotation_over(motion.rotation_vector, part), pose.rotation);
+    }
+  }
+  for (std::size_t k = 0; k < tracks.bodies.size(); ++k) {
+    scene.bodies[tracks.bodies[k]].pose = tracks.poses[k];
+  }
+  return moves;
+}
+
 // Returns nothing if nothing moves.
 std::optional<scene::Scene> begun_later(const TradeRequest& request, int number) {
   scene::Scene scene = scene::load_scene(request.scene, request.overrides);
   base::Random random(static_cast<std::uint64_t>(number));
   scene::Scene step = scene;
   step.motion.time_step *= random.unit();
+  bool moves = begin_tracks_later(step.motion.time_step / scene.motion.time_step, scene);
+  step.tracks = {};
   scene::Kinematics kinematics(step);
   kinematics.next();
-  bool moves = false;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     scene::Body& body = scene.bodies[i];
+    if (std::ranges::binary_search(scene.tracks.bodies, i)) continue;
     const Pose& pose = kinematics.poses()[i];
     moves =
         moves || pose.translation != body.pose.translation || pose.rotation != body.pose.rotation;

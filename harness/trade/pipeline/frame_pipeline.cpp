@@ -122,6 +122,7 @@ void FramePipeline::find_pairs(bool anew) {
   for (const PairBuffer& chunk : sink_.chunks()) {
     pairs_.insert(pairs_.end(), chunk.pairs().begin(), chunk.pairs().end());
   }
+  frames_->scene->filter.apply(pairs_);
 }
 
 void FramePipeline::append_parts(const IndexPair& pair, std::vector<PartPair>& found) const {

@@ -167,6 +167,7 @@ std::vector<IndexPair> near_pairs(const SceneFrames& frames, std::size_t number,
     }
   }
   std::vector<IndexPair> pairs = measure::overlapping_pairs(boxes);
+  scene.filter.apply(pairs);
   if (number > 0) {
     std::erase_if(pairs, [&](const IndexPair& pair) {
       return frames.moves[pair.a] == 0 && frames.moves[pair.b] == 0;

@@ -198,19 +198,19 @@ TEST_P(SceneFault, NamesFileLineAndWhatWasExpected) {
 
 INSTANTIATE_TEST_SUITE_P(
     Toml, SceneFault,
-    testing::Values(Fault{"a = 1\nb = = 2\n", 2, "TOML"},  //
-                    Fault{"a = 1\n\na = 2\n", 3, "TOML"},  //
-                    Fault{"frames = 2\n", 1, "generator"},
-                    Fault{"\ngenerator = \"uniform\"\nimport = \"x.json\"\n", 3, "one of"},
-                    Fault{"generator = \"uniform\"\ncuont = 3\n", 2,
-                          "unknown key cuont; expected one of"},
-                    Fault{"frames = 2\ngenerator = \"unifrom\"\n", 2,
-                          "found \"unifrom\"; expected one of uniform, clustered, mixed, city, "
-                          "stack, ground, terrain, chain, "
-                          "brownian, free_fall, rotating_gravity"},
-                    Fault{"generator = 3\n", 1, "found 3; expected one of"},
-                    Fault{"import = \"x.json\"\n", 1, "no file"},
-                    Fault{"import = 1\n", 1, "a text"}));
+    testing::Values(
+        Fault{"a = 1\nb = = 2\n", 2, "TOML"},  //
+        Fault{"a = 1\n\na = 2\n", 3, "TOML"},  //
+        Fault{"frames = 2\n", 1, "generator"},
+        Fault{"\ngenerator = \"pairs\"\n[[body]]\nshape = {type = \"sphere\", radius = 1}\n", 2,
+              "expected it alone"},
+        Fault{"generator = \"uniform\"\ncuont = 3\n", 2, "unknown key cuont; expected one of"},
+        Fault{"frames = 2\ngenerator = \"unifrom\"\n", 2,
+              "found \"unifrom\"; expected one of uniform, clustered, mixed, city, "
+              "stack, ground, terrain, chain, "
+              "brownian, free_fall, rotating_gravity"},
+        Fault{"generator = 3\n", 1, "found 3; expected one of"},
+        Fault{"import = \"x.json\"\n", 1, "no file"}, Fault{"import = 1\n", 1, "a text"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Generators, SceneFault,

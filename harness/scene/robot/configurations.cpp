@@ -1,0 +1,114 @@
+// Draws configurations, and reads them from CSV.
+#include "harness/scene/robot/configurations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "harness/base/error.h"
+#include "harness/base/random.h"
+#include "harness/files/csv.h"
+
+namespace touchstone::scene {
+
+Configuration with_values(const Robot& robot, Configuration usual,
+                          const std::map<std::string, double>& values) {
+  std::vector<char> given(robot.joints.size(), 0);
+  for (const auto& [name, value] : values) {
+    const std::uint32_t joint = robot.find_joint(name).value_or(UINT32_MAX);
+    usual.at(joint) = value;
+    given[joint] = 1;
+  }
+  follow_mimics(robot, usual, given);
+  return usual;
+}
+
+TimedConfigurations read_configurations(const std::filesystem::path& file, const Robot& robot,
+                                        const Configuration& usual) {
+  std::vector<std::string> columns = {"time"};
+  std::vector<std::size_t> joints;  // of the columns behind it
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    if (!robot.joints[i].moves()) continue;
+    columns.push_back(robot.joints[i].name);
+    joints.push_back(i);
+  }
+  const files::CsvReader reader(file, {}, columns, files::CsvReader::Others::refused);
+  TimedConfigurations read;
+  std::vector<char> given(robot.joints.size(), 0);
+  double first = 0, last = 0;
+  const auto finite = [](const files::CsvReader::Row& row, std::size_t column) {
+    const double value = row.number(column);
+    if (!std::isfinite(value)) {
+      row.fail(fmt::format("{}: found {}; expected a finite number", row.name(column), value));
+    }
+    return value;
+  };
+  reader.read([&](const files::CsvReader::Row& row) {
+    if (!row.is_absent(0)) {
+      const double time = finite(row, 0);
+      if (!read.frames.empty() && !(time > last)) {
+        row.fail(fmt::format("time {} after {}; expected rising times", time, last));
+      }
+      if (read.frames.empty()) first = time;
+      last = time;
+    }
+    Configuration& values = read.frames.emplace_back(usual);
+    bool any = false;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      if (row.is_absent(i + 1)) continue;
+      any = true;
+      given[joints[i]] = 1;
+      values[joints[i]] = finite(row, i + 1);
+    }
+    if (!any) row.fail("no column of a joint; expected one at least, named as a joint that moves");
+    follow_mimics(robot, values, given);
+  });
+  if (read.frames.empty()) {
+    throw base::InputError(file.string(), 1, "no row behind the header; expected at least one");
+  }
+  if (read.frames.size() > 1) {
+    read.time_step = (last - first) / static_cast<double>(read.frames.size() - 1);
+  }
+  return read;
+}
+
+std::vector<Configuration> straight_path(const Configuration& from, const Configuration& to,
+                                         std::size_t steps) {
+  std::vector<Configuration> path;
+  for (std::size_t step = 0; step <= steps; ++step) {
+    const double t =
+        static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(steps, 1));
+    Configuration& at = path.emplace_back(from);
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] = (1 - t) * from[i] + t * to[i];
+  }
+  return path;
+}
+
+std::vector<Configuration> random_configurations(const Robot& robot, const Configuration& usual,
+                                                 const RandomConfigurations& request) {
+  std::vector<Configuration> drawn;
+  base::Random random(request.seed);
+  for (std::size_t k = 0; k < request.count; ++k) {
+    const bool walks = request.step > 0;
+    Configuration values = walks && k > 0 ? drawn.back() : usual;
+    for (std::size_t i = 0; i < values.size() && !(walks && k == 0); ++i) {
+      if (request.moves[i] == 0) continue;
+      const auto& [low, high] = std::pair(robot.joints[i].lower, robot.joints[i].upper);
+      if (!walks) {
+        values[i] = random.uniform(low, high);
+        continue;
+      }
+      values[i] += request.step * (high - low) * random.uniform(-1, 1);
+      if (values[i] < low) values[i] = 2 * low - values[i];
+      if (values[i] > high) values[i] = 2 * high - values[i];
+      values[i] = std::clamp(values[i], low, high);
+    }
+    follow_mimics(robot, values);
+    drawn.push_back(std::move(values));
+  }
+  return drawn;
+}
+
+}  // namespace touchstone::scene

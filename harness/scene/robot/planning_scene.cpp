@@ -1,0 +1,207 @@
+// Reads planning scenes and requests from YAML.
+#include "harness/scene/robot/planning_scene.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "harness/base/input_file.h"
+#include "harness/base/reproducible_math.h"
+#include "harness/scene/robot/configurations.h"
+#include "harness/scene/robot/yaml_node.h"
+
+namespace touchstone::scene {
+namespace {
+
+// shape_msgs/SolidPrimitive: `type` as a name or its number, and `dimensions`.
+Shape read_primitive(const YamlNode& node) {
+  constexpr std::array<std::string_view, 4> names = {"box", "sphere", "cylinder", "cone"};
+  const YamlNode type = node.required("type");
+  const std::string name = type.text();
+  std::size_t kind = 0;
+  while (kind < names.size() && name != names[kind] && name != std::to_string(kind + 1)) ++kind;
+  if (kind == names.size()) {
+    type.fail(
+        fmt::format("type \"{}\"; expected box, sphere, cylinder or cone", base::shortened(name)));
+  }
+  constexpr std::array<std::size_t, 4> counts = {3, 1, 2, 2};
+  const YamlNode dimensions = node.required("dimensions");
+  std::vector<double> sizes;
+  for (const YamlNode& size : dimensions.elements()) {
+    sizes.push_back(size.number());
+    if (sizes.back() < 0) size.fail(fmt::format("found {}; expected 0 or more", sizes.back()));
+  }
+  if (sizes.size() != counts[kind]) {
+    dimensions.fail(fmt::format("found {} dimensions of a {}; expected {}", sizes.size(),
+                                names[kind], counts[kind]));
+  }
+  Shape shape;
+  switch (kind) {
+    case 0:
+      shape.kind = ShapeKind::box;
+      shape.half_extents = 0.5 * Vec3d(sizes[0], sizes[1], sizes[2]);
+      break;
+    case 1:
+      shape.kind = ShapeKind::sphere;
+      shape.radius = sizes[0];
+      break;
+    default:  // height, radius
+      shape.kind = kind == 2 ? ShapeKind::cylinder : ShapeKind::cone;
+      shape.half_length = 0.5 * sizes[0];
+      shape.radius = sizes[1];
+      break;
+  }
+  return shape;
+}
+
+geometry::Mesh read_triangles(const YamlNode& node) {
+  geometry::Mesh mesh;
+  for (const YamlNode& vertex : node.required("vertices").elements()) {
+    const std::vector<double> xyz = vertex.numbers({"x", "y", "z"});
+    mesh.vertices.emplace_back(xyz[0], xyz[1], xyz[2]);
+  }
+  const auto last = static_cast<std::int64_t>(mesh.vertices.size()) - 1;
+  for (const YamlNode& triangle : node.required("triangles").elements()) {
+    std::array<std::uint32_t, 3> corners{};
+    const std::vector<YamlNode> indices = triangle.required("vertex_indices").elements();
+    if (indices.size() != corners.size()) triangle.fail("expected three vertex_indices");
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      corners[i] = static_cast<std::uint32_t>(indices[i].integer(0, last));
+    }
+    mesh.triangles.push_back(corners);
+  }
+  if (mesh.triangles.empty()) node.fail("no triangles; expected at least one");
+  return mesh;
+}
+
+class PlanningSceneReader {
+ public:
+  PlanningScene read(const YamlNode& top) {
+    if (const auto state = top.find("robot_state")) read_state(*state);
+    if (const auto world = top.find("world")) {
+      for (const YamlNode& object : world->elements("collision_objects")) read_object(object);
+    }
+    if (const auto matrix = top.find("allowed_collision_matrix")) read_matrix(*matrix);
+    return std::move(scene_);
+  }
+
+ private:
+  void read_state(const YamlNode& state) {
+    for (const YamlNode& object : state.elements("attached_collision_objects")) {
+      object.fail("an attached object; expected objects of the world alone");
+    }
+    const auto joints = state.find("multi_dof_joint_state");
+    if (!joints) return;
+    const std::vector<YamlNode> transforms = joints->elements("transforms");
+    if (transforms.size() > 1) transforms[1].fail("a second transform; expected that of the base");
+    if (!transforms.empty()) scene_.base = transforms[0].pose();
+  }
+
+  void read_object(const YamlNode& object) {
+    const std::string name = object.required("id").text();
+    for (const YamlNode& plane : object.elements("planes")) {
+      plane.fail("a plane; expected primitives and meshes");
+    }
+    std::string frame;
+    if (const auto header = object.find("header")) {
+      if (const auto given = header->find("frame_id")) frame = given->text();
+    }
+    if (frame.empty()) frame = "world";
+    const auto own = object.find("pose");
+    const Pose around = own ? own->pose() : Pose{};
+    read_shapes(object, "primitives", "primitive_poses", [&](const YamlNode& shape, Pose pose) {
+      scene_.obstacles.push_back({name, read_primitive(shape), std::nullopt, frame,
+                                  base::placed(around, pose), shape.line()});
+    });
+    read_shapes(object, "meshes", "mesh_poses", [&](const YamlNode& shape, Pose pose) {
+      scene_.obstacles.push_back(
+          {name, Shape{}, read_triangles(shape), frame, base::placed(around, pose), shape.line()});
+    });
+  }
+
+  template <typename Add>
+  static void read_shapes(const YamlNode& object, const char* shapes_key, const char* poses_key,
+                          const Add& add) {
+    const std::vector<YamlNode> shapes = object.elements(shapes_key);
+    const std::vector<YamlNode> poses = object.elements(poses_key);
+    if (shapes.size() != poses.size()) {
+      object.fail(fmt::format("{} {} and {} {}; expected as many", shapes.size(), shapes_key,
+                              poses.size(), poses_key));
+    }
+    for (std::size_t i = 0; i < shapes.size(); ++i) add(shapes[i], poses[i].pose());
+  }
+
+  void read_matrix(const YamlNode& matrix) {
+    const std::vector<std::string> names = matrix.texts("entry_names");
+    const std::vector<YamlNode> rows = matrix.elements("entry_values");
+    if (rows.size() != names.size()) {
+      matrix.fail(
+          fmt::format("{} entry_values; expected {}, one a name", rows.size(), names.size()));
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      // A row is a list, or a map with the key `enabled`.
+      const std::vector<YamlNode> row = row_of(rows[i]);
+      if (row.size() != names.size()) {
+        rows[i].fail(fmt::format("{} values; expected {}", row.size(), names.size()));
+      }
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const std::string value = row[k].text();
+        if (value != "true" && value != "false") {
+          row[k].fail(fmt::format("found \"{}\"; expected true or false", base::shortened(value)));
+        }
+        if (value == "true" && i < k) scene_.allowed.emplace_back(names[i], names[k]);
+      }
+    }
+  }
+
+  static std::vector<YamlNode> row_of(const YamlNode& row) {
+    return row.is_list() ? row.elements() : row.required("enabled").elements();
+  }
+
+  PlanningScene scene_;
+};
+
+// Adds `name` and `position` of a joint state. Joints that this variant of the robot lacks are left out.
+void read_values(const YamlNode& state, const Robot& robot, std::map<std::string, double>& values) {
+  const std::vector<YamlNode> names = state.elements("name");
+  const std::vector<YamlNode> positions = state.elements("position");
+  if (names.size() != positions.size()) {
+    state.fail(
+        fmt::format("{} names and {} positions; expected as many", names.size(), positions.size()));
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const double value = positions[i].number();
+    if (robot.find_joint(names[i].text())) values[names[i].text()] = value;
+  }
+}
+
+}  // namespace
+
+PlanningScene read_planning_scene(const std::filesystem::path& file) {
+  return PlanningSceneReader().read(read_yaml(file, "a planning scene in YAML"));
+}
+
+MotionRequest read_request(const std::filesystem::path& file, const Robot& robot) {
+  const YamlNode top = read_yaml(file, "a motion request in YAML");
+  MotionRequest request;
+  read_values(top.required("start_state").required("joint_state"), robot, request.start);
+  request.goal = request.start;
+  const YamlNode goals = top.required("goal_constraints");
+  const std::vector<YamlNode> all = goals.elements();
+  if (all.empty()) goals.fail("no goal; expected one with joint_constraints");
+  const std::vector<YamlNode> joints = all.front().elements("joint_constraints");
+  if (joints.empty()) all.front().fail("no joint_constraints; expected a goal in joint values");
+  for (const YamlNode& joint : joints) {
+    const YamlNode name = joint.required("joint_name");
+    if (!robot.find_joint(name.text())) {
+      name.fail(fmt::format("the robot has no joint \"{}\"; expected one that it has",
+                            base::shortened(name.text())));
+    }
+    request.goal[name.text()] = joint.required("position").number();
+  }
+  return request;
+}
+
+}  // namespace touchstone::scene
