@@ -61,6 +61,7 @@ TOUCHSTONE_NESTED(scene, record, "SCENE --out BOXES.aabbs", "Write a scene's box
 TOUCHSTONE_NESTED(scene, represent, "SCENE --out ERRORS.csv", "Fit proxies, from ball to mesh, to the bodies, and measure their errors")
 TOUCHSTONE_NESTED(scene, describe, "SCENE", "Print bodies, kinds, sizes, overlaps a body, and the share of boxes that move")
 TOUCHSTONE_NESTED(scene, hash, "SCENE", "Print the hash of a scene: the same bodies and motion have the same")
+TOUCHSTONE_COMMAND(touchstone_more, robot, "ROBOT.urdf", "Scenes and clusters", "Say which links of a robot touch, and what its SRDF file hides")
 TOUCHSTONE_COMMAND(touchstone_more, shards, "plan|status|merge ...", "Scenes and clusters", "Cut work into shards for many machines, and join them")
 TOUCHSTONE_NESTED(shards, plan, "FILE --shards N --out DIR", "Cut a campaign, a trade or a check into shards")
 TOUCHSTONE_NESTED(shards, status, "DIR", "How far the shards of a plan are, and which failed")

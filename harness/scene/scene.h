@@ -152,6 +152,10 @@ struct SceneOverrides {
 // bodies).
 Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
 
+// Adds the bodies of a scene behind those of another, at rest or with their velocities; their tracks, pairs and filter are
+// lost.
+void append(Scene from, Scene& to);
+
 // Returns 16 hexadecimal digits that depend on all inputs of an algorithm: shapes, every frame's
 // poses, or the recording. Equal on every platform.
 std::string scene_hash(const Scene& scene);

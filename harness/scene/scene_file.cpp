@@ -20,6 +20,26 @@
 #include "harness/scene/shape_reader.h"
 
 namespace touchstone::scene {
+
+void append(Scene from, Scene& to) {
+  const auto shapes = static_cast<std::uint32_t>(to.shapes.size());
+  const auto bodies = static_cast<std::uint32_t>(to.bodies.size());
+  for (std::size_t i = 0; i < from.shapes.size(); ++i) {
+    to.add_shape(std::move(from.shapes[i]), i < from.meshes.size() ? from.meshes[i] : nullptr,
+                 i < from.concave.size() ? from.concave[i] : nullptr);
+  }
+  for (Body body : from.bodies) {
+    body.shape += shapes;
+    to.bodies.push_back(body);
+  }
+  if (!to.names.empty() || !from.names.empty()) {
+    to.names.resize(bodies);
+    from.names.resize(from.bodies.size());
+    std::ranges::move(from.names, std::back_inserter(to.names));
+  }
+  std::ranges::move(from.files, std::back_inserter(to.files));
+}
+
 namespace {
 
 constexpr std::int64_t most_bodies = 100'000'000;
@@ -127,26 +147,6 @@ Scene import_scene(const std::filesystem::path& file, const MeshUses& uses) {
           ? "holds single pairs; `touchstone query FILE --page OUT.html` draws them"
           : "unknown kind of file; expected .toml, .json (rigid-ipc), .urdf (a robot) or .aabbs "
             "(Broadmark)");
-}
-
-// Adds the bodies of a scene behind those of another. Its motion is that of the other one.
-void append(Scene from, Scene& to) {
-  const auto shapes = static_cast<std::uint32_t>(to.shapes.size());
-  const auto bodies = static_cast<std::uint32_t>(to.bodies.size());
-  for (std::size_t i = 0; i < from.shapes.size(); ++i) {
-    to.add_shape(std::move(from.shapes[i]), i < from.meshes.size() ? from.meshes[i] : nullptr,
-                 i < from.concave.size() ? from.concave[i] : nullptr);
-  }
-  for (Body body : from.bodies) {
-    body.shape += shapes;
-    to.bodies.push_back(body);
-  }
-  if (!to.names.empty() || !from.names.empty()) {
-    to.names.resize(bodies);
-    from.names.resize(from.bodies.size());
-    std::ranges::move(from.names, std::back_inserter(to.names));
-  }
-  std::ranges::move(from.files, std::back_inserter(to.files));
 }
 
 // Sets the number of frames; for a recording it keeps the first ones.

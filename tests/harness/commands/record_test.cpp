@@ -98,5 +98,12 @@ TEST_F(Record, LeavesNothingBehindWhereItFails) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"s.toml"});
 }
 
+TEST_F(Record, PosesAreReadAgain) {
+  run({scene_.string(), "--poses", "--out", path("poses.csv")});
+  EXPECT_THAT(folder_.read("poses.csv"), testing::StartsWith("frame,body,m00,m01"));
+  EXPECT_THROW(status_of({scene_.string(), "--poses", "--out", path("poses.aabbs")}),
+               base::InputError);
+}
+
 }  // namespace
 }  // namespace touchstone

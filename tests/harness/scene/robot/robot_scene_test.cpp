@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "harness/base/random.h"
 #include "harness/base/reproducible_math.h"
 #include "harness/scene/kinematics.h"
 #include "harness/scene/pair_filter.h"
@@ -255,6 +256,47 @@ TEST_F(RobotScenes, StandAmongOtherBodies) {
   EXPECT_FALSE(many.filter.asks({10, 11}));
   EXPECT_TRUE(many.filter.asks({1, 11}));
   EXPECT_TRUE(load("fixed_pairs = true\n" + wall).filter.rests.empty());
+}
+
+// Each mutation is refused with the file's name, or is a scene.
+TEST_F(RobotScenes, SurviveMutatedFiles) {
+  const std::string scene =
+      "import = \"crane.urdf\"\nobstacles = \"problem.yaml\"\nconfigurations = \"request.yaml\"\n";
+  folder_.write("scene.toml", scene);
+  const std::string srdf =
+      "<robot name=\"crane\"><disable_collisions link1=\"boom\" link2=\"lift\"/>"
+      "<group_state name=\"up\" group=\"all\"><joint name=\"rise\" "
+      "value=\"1\"/></group_state></robot>";
+  const std::map<std::string, std::string> originals = {{"crane.urdf", crane_urdf},
+                                                        {"crane.srdf", srdf},
+                                                        {"problem.yaml", problem_scene},
+                                                        {"request.yaml", problem_request}};
+  const std::string alphabet = "<>/\"'=:{}[],-.# \n\t&*!|%09aex\x80\xff";
+  base::Random random(11);
+  for (const auto& [name, text] : originals) {
+    for (const auto& [other, content] : originals) folder_.write(other, content);
+    int refused = 0, read = 0;
+    for (int round = 0; round < 500; ++round) {
+      std::string mutated = text;
+      for (std::uint64_t k = 0, count = 1 + random.below(3); k < count; ++k) {
+        const std::size_t at = random.below(mutated.size());
+        const char letter = alphabet[random.below(alphabet.size())];
+        switch (random.below(4)) {
+          case 0: mutated[at] = letter; break;
+          case 1: mutated.insert(at, 1, letter); break;
+          case 2: mutated.erase(at, 1 + random.below(8)); break;
+          default: mutated.insert(at, mutated.substr(random.below(mutated.size()), 20)); break;
+        }
+      }
+      folder_.write(name, mutated);
+      const std::string fault =
+          input_fault([&] { scene::load_scene(folder_.path() / "scene.toml"); });
+      ++(fault.empty() ? read : refused);
+      if (!fault.empty()) EXPECT_THAT(fault, HasSubstr(folder_.path().string())) << mutated;
+    }
+    EXPECT_GT(refused, 50) << name;
+    EXPECT_GT(read, 20) << name;
+  }
 }
 
 TEST(RobotDatasets, AreWhatTheyWere) {

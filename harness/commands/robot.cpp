@@ -1,0 +1,236 @@
+// touchstone robot: which links of a robot touch, and what its SRDF file hides.
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/base/error.h"
+#include "harness/base/input_file.h"
+#include "harness/base/table.h"
+#include "harness/commands/arguments.h"
+#include "harness/commands/commands.h"
+#include "harness/files/csv.h"
+#include "harness/files/text_file.h"
+#include "harness/files/toml_table.h"
+#include "harness/geometry/concave_bodies.h"
+#include "harness/report/link_contacts.h"
+#include "harness/scene/pair_filter.h"
+#include "harness/scene/robot/robot_scene.h"
+#include "harness/trade/advice/budget.h"
+
+namespace touchstone::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_rows_shown = 12;
+constexpr double frame_seconds = 10;
+
+struct RobotOptions {
+  std::string robot, scene, srdf, path, meshes = "surface";
+  int random = 1000;
+  std::int64_t seed = 1;
+  std::vector<std::string> outs;
+};
+
+bool is_yaml(const fs::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
+// The scene of the robot, with configurations, among the bodies of another one.
+scene::Scene scene_of(const RobotOptions& options) {
+  toml::table keys;
+  const auto add_file = [&](const char* key, const std::string& file) {
+    if (!file.empty()) keys.insert(key, fs::absolute(file).string());
+  };
+  add_file("srdf", options.srdf);
+  const bool is_planning = is_yaml(options.scene);
+  if (is_planning) add_file("obstacles", options.scene);
+  if (!options.path.empty()) {
+    add_file("configurations", options.path);
+  } else {
+    keys.insert("configurations",
+                toml::table{{"random", std::int64_t{options.random}}, {"seed", options.seed}});
+  }
+  files::TomlTable table(keys, options.robot, "");
+  const auto use =
+      static_cast<scene::MeshUse>(std::ranges::find(geometry::mesh_use_names, options.meshes) -
+                                  geometry::mesh_use_names.begin());
+  scene::Scene scene = scene::import_robot(table, options.robot, use, {});
+  if (!options.scene.empty() && !is_planning) {
+    scene::Scene around = scene::load_scene(options.scene);
+    if (!around.recording.empty()) {
+      throw base::InputError(options.scene, 0, "is a recording of boxes; expected bodies");
+    }
+    for (scene::Body& body : around.bodies) body.moving = false;
+    around.names.resize(around.bodies.size());
+    for (std::size_t i = 0; i < around.names.size(); ++i) {
+      if (around.names[i].empty()) around.names[i] = fmt::format("body {}", i);
+    }
+    scene::append(std::move(around), scene);
+  }
+  scene::ignore_fixed_pairs(scene);
+  return scene;
+}
+
+std::string share(std::size_t count, std::size_t of) {
+  return fmt::format("{:.3g} %", 100 * static_cast<double>(count) / static_cast<double>(of));
+}
+
+void print_pairs(const std::string& title, std::vector<report::LinkPair> pairs, std::size_t of) {
+  if (pairs.empty()) return;
+  std::ranges::stable_sort(pairs, std::greater{}, &report::LinkPair::touching);
+  fmt::print("\n{}\n", title);
+  base::Table table({"links", "touch in", ""});
+  for (std::size_t i = 0; i < std::min(pairs.size(), most_rows_shown); ++i) {
+    const report::LinkPair& pair = pairs[i];
+    table.add(
+        {pair.first + ", " + pair.second, std::to_string(pair.touching), share(pair.touching, of)});
+  }
+  fmt::print("{}", table.text(base::page_width()));
+  if (pairs.size() > most_rows_shown) {
+    fmt::print("and {} more pairs (--out PAIRS.csv)\n", pairs.size() - most_rows_shown);
+  }
+}
+
+void write_csv(const fs::path& file, const report::LinkContacts& found) {
+  files::CsvWriter csv(file,
+                       {"first", "second", "disabled", "configurations", "touching", "unknown"});
+  for (const report::LinkPair& pair : found.pairs) {
+    csv.field(pair.first).field(pair.second).field(pair.is_disabled ? "yes" : "no");
+    csv.field(found.configurations).field(pair.touching).field(pair.unknown);
+    csv.end_row();
+  }
+  csv.close();
+}
+
+std::string in_xml(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&': escaped += "&amp;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '"': escaped += "&quot;"; break;
+      default: escaped += c;
+    }
+  }
+  return escaped;
+}
+
+// What an SRDF file may disable: joined links, and links that always or never touched.
+std::string proposal(const scene::Robot& robot, const report::LinkContacts& found) {
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n<!-- Seen in {} configurations. Look at each line: what was never "
+      "seen may happen. -->\n"
+      "<robot name=\"{}\">\n",
+      found.configurations, in_xml(robot.name));
+  const auto add = [&](const std::string& first, const std::string& second, const char* reason) {
+    text += fmt::format("  <disable_collisions link1=\"{}\" link2=\"{}\" reason=\"{}\"/>\n",
+                        in_xml(first), in_xml(second), reason);
+  };
+  for (const auto& [a, b] : robot.joined) {
+    const bool have_shapes = !robot.links[a].shapes.empty() && !robot.links[b].shapes.empty();
+    if (have_shapes) add(robot.links[a].name, robot.links[b].name, "Adjacent");
+  }
+  for (const report::LinkPair& pair : found.pairs) {
+    if (!robot.find_link(pair.first) || !robot.find_link(pair.second) || pair.unknown > 0) continue;
+    if (pair.touching == found.configurations) add(pair.first, pair.second, "Always");
+    if (pair.touching == 0) add(pair.first, pair.second, "Never");
+  }
+  return text + "</robot>\n";
+}
+
+int look_at(const RobotOptions& options) {
+  for (const std::string& out : options.outs) {
+    const fs::path ending = fs::path(out).extension();
+    if (ending != ".csv" && ending != ".srdf") {
+      throw base::InputError("--out: found " + out + "; expected a name ending in .csv or .srdf");
+    }
+  }
+  const scene::Scene scene = scene_of(options);
+  std::vector<files::NamedFile> outputs;
+  for (const std::string& out : options.outs) outputs.push_back({"--out", out});
+  files::check_outputs(scene.inputs(), outputs);
+  const scene::Robot robot = scene::read_robot(options.robot, options.srdf);
+  const report::LinkContacts found = report::link_contacts(scene, robot, frame_seconds);
+  const std::size_t all = found.configurations;
+
+  const auto moving = std::ranges::count_if(robot.joints, &scene::Joint::is_free);
+  fmt::print("{}: {} links, {} shapes, {} joints with a value; {} bodies around it\n", robot.name,
+             robot.links.size(), scene.tracks.bodies.size(), moving,
+             scene.bodies.size() - scene.tracks.bodies.size());
+  for (const std::string& link : robot.unknown_links) {
+    fmt::print("Left out: what SRDF says of \"{}\", which the robot does not have\n",
+               base::printable(link));
+  }
+  fmt::print("Free: {} of {} configurations, {}: no pair touches that is asked{}\n", found.free,
+             all, share(found.free, all),
+             found.unknown > 0 ? fmt::format("; not known of {}", found.unknown) : "");
+
+  std::vector<report::LinkPair> always, some, hidden;
+  std::size_t never = 0, never_disabled = 0;
+  for (const report::LinkPair& pair : found.pairs) {
+    if (pair.touching == 0) {
+      ++(pair.is_disabled ? never_disabled : never);
+    } else if (pair.is_disabled) {
+      hidden.push_back(pair);
+    } else {
+      (pair.touching == all ? always : some).push_back(pair);
+    }
+  }
+  print_pairs("Contacts that SRDF hides, for it disables these pairs:", hidden, all);
+  print_pairs("Always in contact: the shapes overlap, or something is placed wrong:", always, all);
+  print_pairs("In contact in some configurations:", some, all);
+  fmt::print("\nNever seen in contact: {} pairs that are asked, {} that SRDF disables\n", never,
+             never_disabled);
+  if (options.path.empty() && never + never_disabled > 0) {
+    fmt::print("Each of them touches in less than {:.2g} % of such configurations, at 95 %\n",
+               100 * trade::greatest_share(0, static_cast<std::int64_t>(all)));
+  }
+  for (const std::string& out : options.outs) {
+    if (fs::path(out).extension() == ".csv") {
+      write_csv(out, found);
+    } else {
+      files::write_text(out, proposal(robot, found));
+    }
+    fmt::print("{}\n", out);
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+void add_robot(Arguments command) {
+  const auto options = std::make_shared<RobotOptions>();
+  command.text("ROBOT", options->robot, "URDF file").required();
+  command.text(
+      "--scene", options->scene,
+      "Bodies around it, which stand still: a scene file, or MoveIt's planning scene (.yaml)");
+  command.text("--srdf", options->srdf, "Default: the file of that ending beside the URDF file");
+  const Option path = command.text("--configurations", options->path,
+                                   "A CSV of joint values, or MoveIt's request (.yaml)");
+  command.number("--random", options->random, "Configurations at random within the limits")
+      .within(1, 1'000'000)
+      .show_default()
+      .excludes(path);
+  command.number("--seed", options->seed, "Of the random ones").within(0, INT64_MAX).show_default();
+  const auto& uses = geometry::mesh_use_names;
+  command.text("--meshes", options->meshes, "What meshes are")
+      .among({uses.begin(), uses.end()})
+      .show_default();
+  command
+      .texts("--out", options->outs,
+             "Files to write: .csv, a row a pair of links; .srdf, what it may disable")
+      .separated_by_commas();
+  command.footer(
+      "Convex bodies are asked by `certified`, meshes by `fused`. To time algorithms on a robot, "
+      "write a scene that "
+      "imports it (datasets/README.md) for `run --scene`.");
+  command.job([options] { return look_at(*options); });
+}
+
+}  // namespace touchstone::commands
