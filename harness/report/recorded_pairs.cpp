@@ -3,15 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "harness/base/names.h"
+#include "harness/base/error.h"
 #include "harness/kinds/pair/reproducer/reproducer.h"
-#include "harness/kinds/selection.h"
-#include "harness/record/build_info.h"
 #include "harness/report/body_view.h"
 #include "harness/report/case_view.h"
 
@@ -68,8 +64,7 @@ OrderedJson answer_of(const JsonNode& answer) {
 // The test of an algorithm that has such a form; empty if it has none, or not for this pair.
 std::string test_of(const std::string& algorithm, const files::Case& c, const std::string& task,
                     const std::string& file) {
-  const std::vector<std::string> names = kinds::split_names(kinds::names_with_reproducers());
-  if (std::ranges::find(names, algorithm) == names.end()) return "";
+  if (!kinds::has_reproducer(algorithm)) return "";
   for (const Task one :
        {Task::intersect, Task::distance, Task::penetration, Task::signed_distance}) {
     if (to_string(one) != task) continue;

@@ -216,7 +216,7 @@ std::string wrong_pair(const std::string& grade = "wrong") {
          R"(,"group":"gap","answers":[{"algorithm":"lib@1","scalar":"double","task":"signed","grade":")" +
          grade +
          R"(","error":0.5,"answer":"touching","status":"ok","distance":0,"normal":[1,0,0]},)"
-         R"({"algorithm":"fcl-libccd","scalar":"double","task":"signed","grade":"wrong","error":0.5,)"
+         R"({"algorithm":"fcl-indep","scalar":"double","task":"signed","grade":"wrong","error":0.5,)"
          R"("answer":"touching","status":"ok"}]})"
          "\n";
 }
@@ -237,7 +237,7 @@ TEST_F(Results, HaveThePairsThatVersionsGetWrong) {
   EXPECT_EQ(recorded["answers"][0]["normal"], OrderedJson({1, 0, 0}));
   EXPECT_TRUE(recorded["answers"][0]["witness_a"].is_null());
   ASSERT_EQ(recorded["tests"].size(), 1U) << "a library that has a form as a test";
-  EXPECT_EQ(recorded["tests"][0]["algorithm"], "fcl-libccd");
+  EXPECT_EQ(recorded["tests"][0]["algorithm"], "fcl-indep");
   EXPECT_THAT(std::string(recorded["tests"][0]["text"]), HasSubstr("TEST(ExactPairs"));
   EXPECT_GT(one["answers"].size(), 10U) << "algorithms are asked too";
 }
