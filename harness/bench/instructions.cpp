@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdlib>
 #include <deque>
 #include <fstream>
@@ -12,6 +11,7 @@
 
 #include "harness/base/error.h"
 #include "harness/bench/placed_pairs.h"
+#include "harness/files/callgrind.h"
 #include "harness/files/csv.h"
 #include "harness/process/subprocess.h"
 
@@ -42,29 +42,6 @@ std::vector<NarrowSubject> subjects_of(const std::string& filter) {
     throw base::InputError(fmt::format("no narrow-phase benchmark's name matches '{}'", filter));
   }
   return subjects;
-}
-
-// One of Callgrind's numbered dumps: the benchmark that made it, and its sum.
-struct Dump {
-  std::string benchmark;
-  std::int64_t instructions = -1;
-};
-
-Dump read_dump(const fs::path& file) {
-  constexpr std::string_view trigger = "desc: Trigger: Client Request: ", sum = "summary: ";
-  Dump dump;
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);) {
-    if (line.starts_with(trigger)) dump.benchmark = line.substr(trigger.size());
-    if (line.starts_with(sum)) {
-      std::from_chars(line.data() + sum.size(), line.data() + line.size(), dump.instructions);
-      break;
-    }
-  }
-  if (dump.benchmark.empty() || dump.instructions < 0) {
-    throw base::InputError(file.string(), 0, "no dump of Callgrind's that has a name and a sum");
-  }
-  return dump;
 }
 
 // A temporary folder for the dumps.
@@ -135,8 +112,8 @@ void count_instructions(const std::string& filter, const fs::path& out) {
   for (int i = 1;; ++i) {
     const fs::path file = folder.path() / fmt::format("dump.{}", i);
     if (!fs::exists(file)) break;
-    const Dump dump = read_dump(file);
-    csv.field(dump.benchmark).field(PlacedPairs::count);
+    const files::CallgrindCount dump = files::read_callgrind(file);
+    csv.field(dump.name).field(PlacedPairs::count);
     csv.field(static_cast<double>(dump.instructions) / PlacedPairs::count).end_row();
   }
   csv.close();

@@ -5,21 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <compare>
 #include <map>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
-#include "harness/files/csv.h"
+#include "harness/check/graded_answers.h"
+#include "harness/check/wrong_pairs.h"
+#include "harness/record/machine.h"
 
 namespace touchstone::check {
 namespace {
 
 // What one version answered.
 struct Given {
+  std::string algorithm;
   std::string answer;  // or how it failed
-  bool is_wrong = false;
+  double error = 0;
+  AnswerState state{};
 };
 
 struct CaseKey {
@@ -41,94 +46,92 @@ struct CountKey {
   friend auto operator<=>(const CountKey&, const CountKey&) = default;
 };
 
-double number(std::string_view text) {
-  return text.empty() ? Outcome::none : std::strtod(std::string(text).c_str(), nullptr);
-}
+struct Count {
+  VersionCount row;
+  std::map<std::pair<std::string, std::int64_t>, double> wrong_pairs;  // and their greatest errors
+};
 
 class Comparison {
  public:
-  explicit Comparison(const std::filesystem::path& file) {
-    const std::vector<std::string> columns = {"algorithm",
-                                              "scalar",
-                                              "regime",
-                                              "index",
-                                              "task",
-                                              "kind_a",
-                                              "kind_b",
-                                              "exact",
-                                              "exact_lower",
-                                              "exact_upper",
-                                              "answer",
-                                              "status",
-                                              "end_verdict",
-                                              "group",
-                                              "scale",
-                                              "end_margin",
-                                              "end_distance_error",
-                                              "end_depth_error"};
-    files::CsvReader(file, columns).read([&](const files::CsvReader::Row& row) { add(row); });
+  // `built_in` has the versions of libraries that are built in, by algorithm.
+  Comparison(const std::filesystem::path& grades,
+             const std::map<std::string, std::string>& built_in) {
+    for_each_answer(grades, wrong_share, [&](CheckedAnswer one, std::int64_t) {
+      if (one.version.empty()) {
+        const auto at = built_in.find(one.algorithm);
+        if (at == built_in.end()) return;
+        one.version = at->second;
+      }
+      add(std::move(one));
+    });
   }
 
   VersionReport report() const {
     VersionReport report;
     for (const auto& [key, count] : counts_) {
-      if (versions_.at(key.library).size() > 1) report.counts.push_back(count);
+      VersionCount& row = report.counts.emplace_back(count.row);
+      row.wrong_pairs = static_cast<std::int64_t>(count.wrong_pairs.size());
     }
     for (const auto& [key, graded] : cases_) add_changes(key, graded, report.changes);
     return report;
   }
 
+  // The worst pairs of each count.
+  std::vector<WrongPair> wrong_pairs() const {
+    std::map<std::pair<std::string, std::int64_t>, WrongPair> chosen;
+    for (const auto& [key, count] : counts_) {
+      std::vector<std::pair<std::pair<std::string, std::int64_t>, double>> pairs(
+          count.wrong_pairs.begin(), count.wrong_pairs.end());
+      std::ranges::stable_sort(pairs, std::greater<>(), [](const auto& one) { return one.second; });
+      if (pairs.size() > most_wrong_pairs) pairs.resize(most_wrong_pairs);
+      for (const auto& [place, error] : pairs) {
+        WrongPair& pair = chosen[place];
+        pair.regime = place.first;
+        pair.index = place.second;
+        pair.group = key.group;
+      }
+    }
+    // `signed`, the fullest task, is the last.
+    for (auto one = cases_.rbegin(); one != cases_.rend(); ++one) {
+      const auto at = chosen.find({one->first.regime, one->first.index});
+      if (at != chosen.end()) add_answers(one->first, one->second, at->second);
+    }
+    std::vector<WrongPair> pairs;
+    for (auto& [place, pair] : chosen) pairs.push_back(std::move(pair));
+    return pairs;
+  }
+
  private:
-  void add(const files::CsvReader::Row& row) {
-    const std::string name(row.text(0));
-    const std::size_t at = name.find('@');
-    if (at == std::string::npos) return;
-    const std::string library = name.substr(0, at), version = name.substr(at + 1);
-    std::vector<std::string>& versions = versions_[library];
-    auto place = std::ranges::find(versions, version);
-    if (place == versions.end()) place = versions.insert(place, version);
-    const auto number_of_version = static_cast<std::size_t>(place - versions.begin());
+  void add(CheckedAnswer one) {
+    std::vector<std::string>& versions = versions_[one.library];
+    auto place = std::ranges::find(versions, one.version);
+    if (place == versions.end()) place = versions.insert(place, one.version);
+    const auto version = static_cast<std::size_t>(place - versions.begin());
+    const std::string scalar(to_string(one.scalar));
 
-    const std::string scalar(row.text(1)), regime(row.text(2)), status(row.text(11)),
-        verdict(row.text(12));
-    double worst = 0;
-    for (const std::size_t column : {std::size_t{15}, std::size_t{16}, std::size_t{17}}) {
-      const double error = std::abs(number(row.text(column))) / row.number(14);
-      if (error > worst) worst = error;
-    }
-    const bool has_failed = verdict == "crashed" || verdict == "timed_out";
-    const bool has_answer = !has_failed && verdict != "honest_failure";
-    const bool is_wrong = has_answer && worst > wrong_share;
-
-    VersionCount& count = counts_[{library, number_of_version, scalar, std::string(row.text(13))}];
-    count.library = library;
-    count.version = version;
-    count.scalar = scalar == "float" ? Precision::float32 : Precision::float64;
-    count.group = row.text(13);
-    ++count.answers;
-    count.wrong += is_wrong ? 1 : 0;
-    count.gave_up += verdict == "honest_failure" ? 1 : 0;
-    count.failed += has_failed ? 1 : 0;
-    if (is_wrong && !(worst <= count.worst)) {
-      count.worst = worst;
-      count.worst_case = fmt::format("{}/{}", regime, row.text(3));
+    auto& [row, wrong_pairs] = counts_[{one.library, version, scalar, one.group}];
+    row.library = one.library;
+    row.version = one.version;
+    row.algorithm = one.algorithm;
+    row.scalar = one.scalar;
+    row.group = one.group;
+    ++row.answers;
+    row.gave_up += one.state == AnswerState::gave_up ? 1 : 0;
+    row.failed += one.state == AnswerState::failed ? 1 : 0;
+    if (one.state == AnswerState::wrong) {
+      ++row.wrong;
+      double& worst = wrong_pairs[{one.regime, one.index}];
+      worst = std::max(worst, one.error);
+      if (!(one.error <= row.worst)) {
+        row.worst = one.error;
+        row.worst_case = one.case_name();
+      }
     }
 
-    GradedCase& graded =
-        cases_[{library, scalar, regime, row.integer(3), std::string(row.text(4))}];
-    VersionChange& exact = graded.exact;
-    exact.library = library;
-    exact.scalar = count.scalar;
-    exact.regime = regime;
-    exact.index = row.integer(3);
-    exact.task = row.text(4);
-    exact.kind_a = row.text(5);
-    exact.kind_b = row.text(6);
-    exact.exact = row.text(7);
-    exact.exact_lower = number(row.text(8));
-    exact.exact_upper = number(row.text(9));
-    graded.answers[number_of_version] = {has_failed ? status : std::string(row.text(10)),
-                                         is_wrong || has_failed};
+    GradedCase& graded = cases_[{one.library, scalar, one.regime, one.index, one.task}];
+    graded.exact = change_of(one);
+    graded.answers[version] = {std::move(one.algorithm), std::move(one.answer), one.error,
+                               one.state};
   }
 
   void add_changes(const CaseKey& key, const GradedCase& graded,
@@ -138,27 +141,76 @@ class Comparison {
     for (const auto& [version, now] : graded.answers) {
       if (last) {
         const Given& before = graded.answers.at(*last);
-        if (before.answer != now.answer || before.is_wrong != now.is_wrong) {
+        if (before.answer != now.answer || before.state != now.state) {
           VersionChange& change = changes.emplace_back(graded.exact);
           change.from = versions[*last];
           change.to = versions[version];
           change.before = before.answer;
           change.after = now.answer;
-          change.became = before.is_wrong == now.is_wrong ? "other"
-                          : now.is_wrong                  ? "wrong"
-                                                          : "right";
+          change.error_before = before.error;
+          change.error_after = now.error;
+          change.became = became(before.state, now.state);
         }
       }
       last = version;
     }
   }
 
+  // Adds the answers of all versions to a task, if it is the first in which one of them is wrong.
+  void add_answers(const CaseKey& key, const GradedCase& graded, WrongPair& pair) const {
+    const auto is_news = [&](const auto& one) {
+      return one.second.state == AnswerState::wrong &&
+             std::ranges::none_of(pair.answers, [&](const WrongPair::Given& other) {
+               return other.algorithm == one.second.algorithm &&
+                      to_string(other.scalar) == key.scalar && other.state == AnswerState::wrong;
+             });
+    };
+    if (std::ranges::none_of(graded.answers, is_news)) return;
+    for (const auto& [version, given] : graded.answers) {
+      pair.answers.push_back({.algorithm = given.algorithm,
+                              .scalar = graded.exact.scalar,
+                              .task = key.task,
+                              .state = given.state,
+                              .error = given.error});
+    }
+  }
+
   std::map<std::string, std::vector<std::string>> versions_;  // of each library, as they come
-  std::map<CountKey, VersionCount> counts_;
+  std::map<CountKey, Count> counts_;
   std::map<CaseKey, GradedCase> cases_;
 };
 
+// Whether it is a built-in library whose numbers are no bounds by design.
+bool is_measured_by_number(const kinds::Contestant& one) {
+  if (one.info->origin != Origin::peer || one.kind != &kinds::pair_kind()) return false;
+  const Traits& traits = one.of<NarrowPhaseEntry>().traits;
+  return !traits.depth_is_bound && !traits.approximate;
+}
+
+// That of bullet-gjk-epa is the fact `bullet`. Where the fact is a file, such as libccd.so.2.0, its end counts.
+std::string built_in_version(const record::Facts& facts, const std::string& algorithm) {
+  const std::string fact = record::value_of(facts, algorithm.substr(0, algorithm.find('-')));
+  constexpr std::string_view mark = ".so.";
+  const std::size_t at = fact.find(mark);
+  return at == std::string::npos ? fact : fact.substr(at + mark.size());
+}
+
 }  // namespace
+
+VersionChange change_of(const CheckedAnswer& one) {
+  VersionChange change;
+  change.library = one.library;
+  change.scalar = one.scalar;
+  change.regime = one.regime;
+  change.index = one.index;
+  change.kind_a = one.kind_a;
+  change.kind_b = one.kind_b;
+  change.task = one.task;
+  change.exact = one.exact;
+  change.exact_lower = one.exact_lower;
+  change.exact_upper = one.exact_upper;
+  return change;
+}
 
 base::Table VersionReport::table() const {
   base::Table table(
@@ -176,6 +228,7 @@ base::Table VersionReport::table() const {
     }
     sum->answers += one.answers;
     sum->wrong += one.wrong;
+    sum->wrong_pairs += one.wrong_pairs;
     sum->gave_up += one.gave_up;
     sum->failed += one.failed;
     if (!std::isnan(one.worst) && !(one.worst <= sum->worst)) {
@@ -213,25 +266,32 @@ std::vector<std::string> VersionReport::since() const {
     lines.push_back(fmt::format(
         "{}: {} answers became right, {} wrong, {} changed otherwise; the first is {} of {}/{}, "
         "exactly {}: {} became {}",
-        name, sum.became["right"], sum.became["wrong"], sum.became["other"], first.task,
-        first.regime, first.index, first.exact, first.before, first.after));
+        name, sum.became["right"], sum.became["wrong"], sum.became["other"] + sum.became["lost"],
+        first.task, first.regime, first.index, first.exact, first.before, first.after));
   }
   return lines;
 }
 
 VersionReport compare_versions(const CheckRequest& request) {
   std::map<std::string, std::set<std::string>> versions;
+  std::map<std::string, std::string> built_in;
+  const record::Facts facts = record::machine_facts();
   for (const kinds::Contestant& one : request.contestants) {
     const std::string& name = one.info->name;
-    const std::size_t at = name.find('@');
-    if (at != std::string::npos) versions[name.substr(0, at)].insert(name);
+    const auto [library, version] = library_and_version(name);
+    if (!version.empty()) versions[library].insert(version);
+    if (version.empty() && is_measured_by_number(one)) {
+      built_in[name] = built_in_version(facts, name);
+    }
   }
   if (std::ranges::none_of(versions, [](const auto& one) { return one.second.size() > 1; })) {
     return {};
   }
-  VersionReport report = Comparison(request.out / "grades.csv").report();
+  const Comparison comparison(request.out / "grades.csv", built_in);
+  VersionReport report = comparison.report();
   record::write_rows(request.out / "versions.csv", report.counts);
   record::write_rows(request.out / "version_changes.csv", report.changes);
+  write_wrong_pairs(request, comparison.wrong_pairs());
   return report;
 }
 

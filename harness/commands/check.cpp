@@ -15,6 +15,7 @@
 #include "harness/base/table.h"
 #include "harness/check/certificate_files.h"
 #include "harness/check/check_run.h"
+#include "harness/check/graded_answers.h"
 #include "harness/check/select_cases.h"
 #include "harness/check/versions.h"
 #include "harness/commands/arguments.h"
@@ -123,7 +124,8 @@ std::string text_of(const check::VersionReport& versions) {
   return fmt::format(
       "\nVersions over the same cases. Wrong: on the other side of contact, or a number off, by "
       "more "
-      "than {:g} of the size.\n{}{}\nRows in versions.csv and version_changes.csv\n",
+      "than {:g} of the size.\n{}{}\nRows in versions.csv and version_changes.csv, pairs in "
+      "wrong_pairs.jsonl\n",
       check::wrong_share, versions.table().text(base::page_width()),
       fmt::join(versions.since(), "\n"));
 }

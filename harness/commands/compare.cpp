@@ -1,4 +1,4 @@
-// touchstone compare: says whether B is slower than A.
+// touchstone compare: says whether B is slower than A, or wrong where A is not.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,16 +11,21 @@
 
 #include "harness/base/error.h"
 #include "harness/base/table.h"
+#include "harness/check/changed_answers.h"
+#include "harness/check/graded_answers.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/compare.h"
 #include "harness/commands/shared_options.h"
-#include "harness/files/packed_files.h"
+#include "harness/files/output_file.h"
+#include "harness/files/text_file.h"
 #include "harness/process/subprocess.h"
 #include "harness/record/build_info.h"
 #include "harness/record/machine.h"
 #include "harness/record/result_folder.h"
 #include "harness/stats/cell_results.h"
 #include "harness/stats/comparison.h"
+#include "harness/stats/instruction_counts.h"
 
 namespace touchstone::commands {
 namespace {
@@ -29,27 +34,30 @@ using namespace stats;
 
 struct CompareOptions {
   std::vector<std::string> files, programs;
-  std::string out, csv;
-  double threshold = 0.03;
+  std::string out, csv, markdown;
+  double threshold = 0.03, max_error = check::wrong_share;
   int runs = 8;
   bool any_machine = false, noisy = false, all = false;
+  std::function<bool(const std::string&)> is_given;  // whether the command line has this option
 
   stats::Noise noise() const { return noisy ? stats::Noise::kept : stats::Noise::left_out; }
 };
 
-void print(const std::string& title, const std::vector<std::string>& lines) {
+void add_lines(std::string& text, std::string_view title, const std::vector<std::string>& lines) {
   constexpr std::size_t most = 20;
   if (lines.empty()) return;
-  fmt::print("{}\n", title);
-  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) fmt::print("  {}\n", lines[i]);
-  if (lines.size() > most) fmt::print("  and {} more\n", lines.size() - most);
-  fmt::print("\n");
+  text += fmt::format("{}\n", title);
+  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) {
+    text += fmt::format("  {}\n", lines[i]);
+  }
+  if (lines.size() > most) text += fmt::format("  and {} more\n", lines.size() - most);
+  text += "\n";
 }
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4f}", value); }
 
-// Prints every cell.
-void print_all(const std::vector<stats::ComparedCell>& cells, double threshold) {
+// Adds every cell.
+void add_all(std::string& text, const std::vector<stats::ComparedCell>& cells, double threshold) {
   for (std::size_t i = 0; i < cells.size();) {
     const stats::SetKey& key = cells[i].key;
     base::Table table({"", "B / A", "from", "to", "p (Holm)", "n", "verdict"});
@@ -60,13 +68,13 @@ void print_all(const std::vector<stats::ComparedCell>& cells, double threshold) 
                  fmt::format("{} + {}", cell.squares_a, cell.squares_b),
                  std::string(to_string(stats::verdict(cell, threshold)))});
     }
-    fmt::print("{}\n\n{}\n", key.words(), table.text(base::page_width()));
+    text += fmt::format("{}\n\n{}\n", key.words(), table.text(base::page_width()));
   }
 }
 
-// Prints the cells with a verdict: those that are the slowest for sure come first.
-void print(std::string_view title, stats::Verdict wanted, const CompareOptions& options,
-           const std::vector<stats::ComparedCell>& cells) {
+// Adds the cells with a verdict: those that are the slowest for sure come first.
+void add_cells(Judgement& judged, std::string_view title, stats::Verdict wanted,
+               const CompareOptions& options, const std::vector<stats::ComparedCell>& cells) {
   std::vector<const stats::ComparedCell*> found;
   for (const stats::ComparedCell& cell : cells) {
     if (stats::verdict(cell, options.threshold) == wanted) found.push_back(&cell);
@@ -76,31 +84,39 @@ void print(std::string_view title, stats::Verdict wanted, const CompareOptions& 
   });
   constexpr std::size_t most = 5;
   if (found.empty()) return;
-  fmt::print("{}\n", title);
+  judged.text += fmt::format("{}\n", title);
+  base::Table table({"B / A", "algorithm", "input"}, 3);
   for (const stats::ComparedCell* cell : std::span(found).first(std::min(most, found.size()))) {
     const std::string ratio =
         std::isnan(cell->ratio.low)
             ? fmt::format("too few squares ({} + {})", cell->squares_a, cell->squares_b)
             : fmt::format("{:.3f} ({:.3f} to {:.3f})", cell->ratio.median, cell->ratio.low,
                           cell->ratio.high);
-    fmt::print("  {:<24}  {}, {}\n", ratio, cell->label, cell->key.words());
+    judged.text += fmt::format("  {:<24}  {}, {}\n", ratio, cell->label, cell->key.words());
+    table.add({ratio, cell->label, cell->key.words()});
   }
+  judged.markdown += fmt::format("\n**{}**\n\n{}", title, table.markdown());
   if (found.size() > most) {
-    fmt::print("  and {} more (--all prints every cell, --csv writes them)\n", found.size() - most);
+    const std::string more = fmt::format(
+        "and {} more (--all prints every cell, --csv writes them)\n", found.size() - most);
+    judged.text += "  " + more;
+    judged.markdown += "\n" + more;
   }
-  fmt::print("\n");
+  judged.text += "\n";
 }
 
-// Prints the judgement of A and B. Returns the exit status.
-int judge(const CompareOptions& options, const stats::Results& a, const stats::Results& b,
-          const std::vector<stats::ComparedCell>& cells) {
-  print("A and B differ in", stats::remarks(a, b));
-  if (options.all) print_all(cells, options.threshold);
-  print("SLOWER in B: time in B over time in A", stats::Verdict::slower, options, cells);
-  print("Undecided", stats::Verdict::undecided, options, cells);
+// Returns the judgement of A and B.
+Judgement judge(const CompareOptions& options, const stats::Results& a, const stats::Results& b,
+                const std::vector<stats::ComparedCell>& cells) {
+  Judgement judged;
+  add_lines(judged.text, "A and B differ in", stats::remarks(a, b));
+  if (options.all) add_all(judged.text, cells, options.threshold);
+  add_cells(judged, "SLOWER in B: time in B over time in A", stats::Verdict::slower, options,
+            cells);
+  add_cells(judged, "Undecided", stats::Verdict::undecided, options, cells);
   if (!options.csv.empty()) record::write_rows(options.csv, cells, options.threshold);
   const std::vector<std::string> changed = stats::changed_answers(a, b, stats::Compared::answers);
-  print("The answers changed", changed);
+  add_lines(judged.text, "The answers changed", changed);
   const auto count = [&](stats::Verdict wanted) {
     return std::ranges::count_if(cells, [&](const stats::ComparedCell& c) {
       return stats::verdict(c, options.threshold) == wanted;
@@ -108,20 +124,33 @@ int judge(const CompareOptions& options, const stats::Results& a, const stats::R
   };
   const auto slower = count(stats::Verdict::slower);
   const auto undecided = count(stats::Verdict::undecided);
-  fmt::print("{} cells: {} slower, {} undecided, {} same, {} faster, {} not slower\n", cells.size(),
-             slower, undecided, count(stats::Verdict::same), count(stats::Verdict::faster),
-             count(stats::Verdict::not_slower));
+  const std::string sum =
+      fmt::format("{} cells: {} slower, {} undecided, {} same, {} faster, {} not slower\n",
+                  cells.size(), slower, undecided, count(stats::Verdict::same),
+                  count(stats::Verdict::faster), count(stats::Verdict::not_slower));
+  judged.text += sum;
   if (undecided > 0 && options.programs.empty()) {
-    fmt::print(
+    judged.text += fmt::format(
         "Two runs decide little: machines drift between them. What decides runs both programs in "
         "turns, {} times:\n  touchstone compare --exe OLD --exe NEW "
         "datasets/campaigns/compare.toml\n",
         CompareOptions().runs);
   } else if (undecided > 0) {
-    fmt::print("More runs decide more: --runs {}\n", 2 * options.runs);
+    judged.text += fmt::format("More runs decide more: --runs {}\n", 2 * options.runs);
   }
-  if (slower > 0 || !changed.empty()) return exit_measured_wrong;
-  return undecided > 0 || cells.empty() ? exit_undecided : exit_done;
+  const bool is_wrong = slower > 0 || !changed.empty();
+  judged.status = is_wrong                         ? exit_measured_wrong
+                  : undecided > 0 || cells.empty() ? exit_undecided
+                                                   : exit_done;
+  std::string answers;
+  for (const std::string& line : changed)
+    answers += fmt::format("\nThe answers changed: {}\n", line);
+  judged.markdown = fmt::format("### Times: {}\n\n{}{}{}",
+                                is_wrong                          ? "FAILED"
+                                : judged.status == exit_undecided ? "undecided"
+                                                                  : "passed",
+                                sum, answers, judged.markdown);
+  return judged;
 }
 
 stats::Results read(const std::filesystem::path& results) {
@@ -129,18 +158,43 @@ stats::Results read(const std::filesystem::path& results) {
                                      : stats::read_results(results);
 }
 
-int not_comparable(const std::vector<std::string>& reasons) {
-  print("A and B may not be compared", reasons);
-  return exit_bad_request;
+Judgement not_comparable(const std::vector<std::string>& reasons) {
+  Judgement judged;
+  add_lines(judged.text, "A and B may not be compared", reasons);
+  judged.markdown = "### Times: not comparable\n\n" + judged.text;
+  judged.status = exit_bad_request;
+  return judged;
 }
 
-int compare_files(const CompareOptions& options) {
+// Throws InputError for an option that the command line has and that means nothing for what is compared.
+void expect_none(const CompareOptions& options, const std::vector<std::string>& meaningless,
+                 std::string_view what) {
+  for (const std::string& name : meaningless) {
+    if (!options.is_given(name)) continue;
+    throw base::InputError(
+        fmt::format("{} was given with {}; expected it with results that it is for", name, what));
+  }
+}
+
+Judgement compare_files(const CompareOptions& options) {
   if (options.files.size() != 2) {
     throw base::InputError(
         fmt::format("found {} results; expected two, A and B", options.files.size()));
   }
-  const stats::Results a = read(options.files[0]);
-  const stats::Results b = read(options.files[1]);
+  const CompareRequest request = {options.files[0], options.files[1], options.csv, options.all};
+  const auto is_either = [&](const auto& is) { return is(request.a) || is(request.b); };
+  if (is_either(check::is_of_check)) {
+    expect_none(options, {"--threshold", "--any-machine", "--noisy"},
+                "checks, which have no times");
+    return compare_answers(request, options.max_error);
+  }
+  expect_none(options, {"--max-error"}, "what is no check");
+  if (is_either(stats::has_instructions)) {
+    expect_none(options, {"--any-machine", "--noisy"}, "counts of instructions");
+    return compare_instructions(request, options.threshold);
+  }
+  const stats::Results a = read(request.a);
+  const stats::Results b = read(request.b);
   const std::vector<std::string> reasons = stats::obstacles(a, b, !options.any_machine);
   if (!reasons.empty()) return not_comparable(reasons);
   return judge(options, a, b, stats::compare(a, b, options.noise()));
@@ -159,7 +213,8 @@ stats::Results run(const std::string& program, const std::string& campaign,
   return read(folder);
 }
 
-int compare_programs(const CompareOptions& options) {
+Judgement compare_programs(const CompareOptions& options) {
+  expect_none(options, {"--max-error"}, "--exe");
   if (options.programs.size() != 2) {
     throw base::InputError(
         fmt::format("found {} times --exe; expected it twice, A and B", options.programs.size()));
@@ -198,13 +253,27 @@ int compare_programs(const CompareOptions& options) {
   return judge(options, a[0], b[0], stats::compare_runs(a, b, options.noise()));
 }
 
+// Prints and writes what was found. With `--markdown -` the text makes way for the Markdown.
+int finish(const CompareOptions& options, const Judgement& judged) {
+  const bool is_piped = options.markdown == "-";
+  fmt::print(is_piped ? stderr : stdout, "{}", judged.text);
+  if (is_piped) {
+    fmt::print("{}", judged.markdown);
+  } else if (!options.markdown.empty()) {
+    files::write_text(options.markdown, judged.markdown);
+  }
+  return judged.status;
+}
+
 }  // namespace
 
 void add_compare(Arguments command) {
   auto options = std::make_shared<CompareOptions>();
-  command.texts("results", options->files,
-                "A and B: results folders, or raw.csv files. With --exe: a campaign file "
-                "(default: datasets/campaigns/compare.toml)");
+  command.texts(
+      "results", options->files,
+      "A and B: results folders or raw.csv files of `run`, folders of `check`, or counts of "
+      "instructions. With --exe: a campaign file (default: "
+      "datasets/campaigns/compare.toml)");
   const Option exe =
       command
           .texts("--exe", options->programs,
@@ -222,9 +291,19 @@ void add_compare(Arguments command) {
       .text("--out", options->out,
             "With --exe: folder for the runs (default: results/local/compare in the project)")
       .needs(exe);
-  command.text("--csv", options->csv, "Write the cells to this file, too");
+  command
+      .number("--max-error", options->max_error,
+              "With checks: an answer is wrong that is on the other side of contact, or a number "
+              "off, by more than this part of the pair's size")
+      .positive()
+      .show_default();
+  command.text("--csv", options->csv,
+               "Write the cells, changed answers or counts to this file, too");
+  command.text("--markdown", options->markdown,
+               "Write the findings as Markdown to this file, too; with - to standard output, and "
+               "the text to standard error");
   command.flag("--all", options->all,
-               "Print every cell, not only those that are slower or undecided");
+               "Print every cell, changed answer or count, not only the first that matter");
   command.flag("--any-machine", options->any_machine,
                "Compare although the machines differ or are not known");
   command.flag("--noisy", options->noisy,
@@ -235,14 +314,25 @@ void add_compare(Arguments command) {
       "is slower where all of it is above 1 + threshold and Mann-Whitney's p, corrected by Holm "
       "over\n"
       "all cells, is below 0.05.\n\n"
+      "Folders of `check` are compared answer by answer; they must have the same cases. Counts of\n"
+      "instructions are files of `bench --instructions`, or of valgrind --tool=callgrind.\n\n"
       "Exit status:\n"
-      "  0  the same: no cell is slower, none is undecided\n"
-      "  1  a regression: at least one cell is slower, or answers otherwise, or fails in B alone\n"
-      "  2  not comparable: machine, scene hash, settings or vector instructions differ (it says\n"
-      "     which); or the request or a file is wrong\n"
+      "  0  the same: no cell is slower, none is undecided; no answer became wrong; no count grew\n"
+      "  1  a regression: at least one cell is slower, or answers otherwise, or fails in B alone; "
+      "an\n"
+      "     answer of a check became wrong or was lost; a count is beyond the threshold\n"
+      "  2  not comparable: machine, scene hash, settings, vector instructions or cases differ "
+      "(it\n"
+      "     says which); or the request or a file is wrong\n"
       "  3  undecided: no regression is shown, and in at least one cell none is ruled out");
+  options->is_given = [command](const std::string& name) { return command.option(name).given(); };
   command.job([options] {
-    return options->programs.empty() ? compare_files(*options) : compare_programs(*options);
+    if (!options->csv.empty()) files::check_output(options->csv);
+    if (!options->markdown.empty() && options->markdown != "-") {
+      files::check_output(options->markdown);
+    }
+    return finish(*options,
+                  options->programs.empty() ? compare_files(*options) : compare_programs(*options));
   });
 }
 

@@ -21,6 +21,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
+#include "harness/files/packed_files.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
 #include "harness/record/machine.h"
@@ -34,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportOptions {
-  std::vector<std::string> results, scenes, peers;
+  std::vector<std::string> results, versions, scenes, peers;
   std::string narrow = "certified,gjk", broad = "uniform-grid,linear-bvh,sweep-and-prune";
   std::string out, page;
   scene::SceneOverrides overrides;
@@ -53,6 +54,7 @@ files::OrderedJson made() {
   for (const auto& [name, value] : record::machine_facts()) {
     if (name == "touchstone") facts["version"] = value;
     if (name == "commit" || name == "tree") facts[name] = value;
+    if (name == record::command_line_fact) facts["command"] = value;
   }
   return facts;
 }
@@ -152,7 +154,19 @@ std::vector<report::ResultsRequest> results_requests(const ReportOptions& option
   return requests;
 }
 
-void make_report(const ReportOptions& options) {
+// Adds the folders of --versions to the results. Throws InputError for one without versions.
+void add_versions(ReportOptions& options) {
+  for (const std::string& folder : options.versions) {
+    if (!fs::exists(files::row_file(fs::path(folder) / "versions.csv"))) {
+      throw base::InputError(folder, 0,
+                             "no versions.csv in it; expected a folder of `check --peer NAME@all`");
+    }
+    options.results.push_back(folder);
+  }
+}
+
+void make_report(ReportOptions options) {
+  add_versions(options);
   if (options.results.empty() && options.scenes.empty()) {
     throw base::InputError("nothing to report; expected folders of results, or --scene SCENE");
   }
@@ -204,6 +218,10 @@ void write_report(const fs::path& out, const std::string& page, files::OrderedJs
 void add_report(Arguments command) {
   const auto options = std::make_shared<ReportOptions>();
   command.texts("RESULTS", options->results, "Folders that run, check or advise wrote");
+  command
+      .texts("--versions", options->versions,
+             "The same for folders in which `check` compared versions of libraries")
+      .once_each();
   command.text("--out", options->out, "The page, .html").required();
   command
       .texts("--scene", options->scenes,

@@ -19,6 +19,7 @@
 #include "harness/base/error.h"
 #include "harness/files/packed_files.h"
 #include "harness/report/case_view.h"
+#include "harness/report/recorded_pairs.h"
 #include "harness/stats/cell_results.h"
 #include "harness/stats/cell_tables.h"
 #include "harness/stats/samples.h"
@@ -215,11 +216,19 @@ files::OrderedJson results_view(const ResultsRequest& request) {
     notes.push_back("raw.csv has the rows of several machines; the tables of each are apart.");
   }
   add_tables(request.folder, shown, notes);
-  const std::vector<ListedCase> cases = cases_of(request, notes);
+  files::OrderedJson cases =
+      case_views(cases_of(request, notes), request.folder, request.time_limit);
+  try {
+    for (files::OrderedJson& view : recorded_pair_views(request.folder, request.time_limit)) {
+      cases.push_back(std::move(view));
+    }
+  } catch (const base::InputError& error) {
+    notes.push_back(error.what());
+  }
   return {{"name", request.name},
           {"folder", request.folder.string()},
           {"files", std::move(shown)},
-          {"cases", case_views(cases, request.folder, request.time_limit)},
+          {"cases", std::move(cases)},
           {"notes", std::move(notes)}};
 }
 

@@ -21,7 +21,7 @@ struct ResultsRequest {
 };
 
 // The folder's CSV files as they stand, or stood before they were packed, and the pairs that its
-// departures and failures list. What cannot be read is named in "notes".
+// departures, failures and versions list. What cannot be read is named in "notes".
 files::OrderedJson results_view(const ResultsRequest& request);
 
 }  // namespace touchstone::report

@@ -4,6 +4,7 @@
 
 #include "harness/base/error.h"
 #include "harness/files/cases.h"
+#include "harness/files/packed_files.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh/mesh_kind.h"
 #include "harness/kinds/pair/axes/axes.h"
@@ -76,8 +77,9 @@ RegimeCase case_of_file(RegimeDraw& draw) {
 void take_case_file(const std::filesystem::path& file, CheckRequest& request) {
   static Regime regime;
   static Family family;
-  regime.name = file.stem().string();
-  regime.group = "file";
+  const std::filesystem::path plain = files::is_packed(file) ? file.stem() : file;
+  regime.name = plain.stem().string();
+  regime.group = regime.name;
   regime.what = "pairs of a file";
   regime.extreme = true;
   regime.draw = case_of_file;

@@ -3,7 +3,7 @@ import type { Slices } from "./base/slices";
 
 export interface Bundle {
   format: 1;
-  made: { version: string; commit: string; tree: string; date: string };
+  made: { version: string; commit: string; tree: string; date: string; command: string };
   origins: Record<string, string>; // each algorithm's: ours, peer or oracle
   approximate: string[]; // algorithms whose errors are known, and are no fault
   results: Results[];
@@ -80,6 +80,12 @@ export interface CaseView {
     ball: { centre: Triple; radius: number } | null;
   };
   answers: AnswerView[];
+  // What versions of libraries answered when they were checked, and tests of those that have such a form.
+  recorded?: {
+    group: string; // of the pair's regime
+    answers: AnswerView[];
+    tests: { algorithm: string; file: string; text: string }[];
+  };
 }
 
 // A recording is a scene that was played. Its arrays are base64 of little-endian numbers.

@@ -8,9 +8,10 @@ import { compare } from "./sections/compare";
 import { fastest } from "./sections/fastest";
 import { files } from "./sections/files";
 import { speed } from "./sections/speed";
-import { about, summary } from "./sections/summary";
+import { about, foot, summary } from "./sections/summary";
 import { trade } from "./sections/trade";
 import { verdicts } from "./sections/verdicts";
+import { versions } from "./sections/versions";
 import { Folder } from "./tables/folder";
 
 function contents(sections: HTMLElement[]): HTMLElement {
@@ -37,6 +38,7 @@ async function build(page: HTMLElement): Promise<void> {
   ];
   document.title = `Touchstone: ${names.join(", ")}`;
   const makers: (() => HTMLElement | null)[] = [
+    () => versions(folders),
     () => fastest(bundle, folders),
     () => summary(bundle, folders),
     () => compare(folders),
@@ -57,6 +59,7 @@ async function build(page: HTMLElement): Promise<void> {
     await slices.begin("");
   }
   page.firstElementChild?.after(contents(sections));
+  page.append(foot(bundle, folders));
   document.documentElement.dataset["ready"] = "yes";
   window.addEventListener("hashchange", show_address);
   show_address();

@@ -559,3 +559,55 @@ test("narrow, dark and printed", async () => {
     assert.ok((await page.pdf({ pageRanges: "1" })).length > 1000);
   });
 });
+
+test("a cell of the versions opens its pairs, with proof and test", async () => {
+  const answer = (algorithm, grade, why) => ({ ...pair.answers[0], algorithm, scalar: "double", task: "signed", grade, why });
+  const recorded = (id, group, tests, ...answers) => ({ ...pair, id, answers: [], recorded: { group, answers, tests } });
+  const results = folder_of(
+    "versions",
+    {
+      "versions.csv":
+        "library,version,algorithm,scalar,group,answers,wrong,wrong_pairs,gave_up,failed,worst,worst_case\n" +
+        "lib,1.0,lib@1.0,double,gap,400,3,2,0,0,0.5,gap/1\nlib,2.0,lib@2.0,double,gap,400,0,0,0,0,,\n" +
+        "lib,1.0,lib@1.0,double,deep,400,1,1,0,2,0.1,deep/3\nclosed,,closed,float,gap,50,1,1,0,0,0.2,gap/1\n",
+      "machine.csv": "name,value\nbegun,2026-01-31 13:05:00 UTC\ncommand_line,touchstone check --peer lib@all\n",
+    },
+    [
+      recorded("gap/1", "gap", [{ algorithm: "closed", file: "closed_test.cpp", text: "int main() {}" }],
+        answer("lib@1.0", "silent", "off by 0.1 of the size"), answer("lib@2.0", "right", ""),
+        { ...answer("closed", "silent", "off by 0.2 of the size"), scalar: "float" }),
+      recorded("gap/2", "gap", [], answer("lib@1.0", "silent", "off by 0.5 of the size")),
+      recorded("deep/3", "deep", [], answer("lib@1.0", "silent", "off by 0.1 of the size")),
+    ],
+  );
+  const file = await fill(process.env.PAGE, join(await mkdtemp(join(tmpdir(), "page-")), "page.html"), bundle_of([results]));
+  const { page, complaints } = await open(browser, file);
+  const section = page.locator("#wrong-by-version");
+  const fields = (row) => section.locator(`tbody tr:nth-child(${row}) td`).allTextContents();
+  assert.deepEqual(await fields(1), ["800", "3", "1 + 2 failed"]);
+  assert.deepEqual(await fields(2), ["400", "0", "–"]);
+  assert.deepEqual(await fields(3), ["50", "1", "–"]);
+  await section.getByRole("button", { name: "lib 1.0, gap: 3 of 400 answers wrong, about 2 pairs" }).click();
+  const chosen = section.locator(".chosen");
+  assert.match(await chosen.locator("h3").textContent(), /lib 1.0, gap/);
+  // The worst pair comes first.
+  assert.deepEqual(await chosen.locator("select").first().locator("option").allTextContents(), [
+    "gap/2: overlapping, off by 0.5 of the size",
+    "gap/1: overlapping, off by 0.1 of the size",
+  ]);
+  assert.equal(await chosen.locator("canvas").count(), 1);
+  assert.match(await chosen.textContent(), /query results\/versions\/wrong_pairs.jsonl --id gap\/2 --with exact --peer lib@1.0 --task signed/);
+  await chosen.locator("select").first().selectOption({ index: 1 });
+  assert.equal(await chosen.locator("canvas").count(), 1);
+  // The address brings the same back.
+  const address = new URL(page.url()).hash;
+  await page.goto("about:blank");
+  await page.goto(`file://${file}${address}`);
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  assert.match(await section.locator(".chosen").textContent(), /--id gap\/1/);
+  await section.getByRole("button", { name: "closed float, gap" }).click();
+  assert.match(await section.locator(".chosen pre.test").textContent(), /int main/);
+  assert.match(await page.locator("footer").textContent(), /2026-01-31 13:05:00 UTC, touchstone check --peer lib@all/);
+  assert.deepEqual(complaints, []);
+  await page.close();
+});

@@ -70,7 +70,7 @@ export async function fill(built, out, bundle) {
 
 export const bundle_of = (results, scenes = []) => ({
   format: 1,
-  made: { version: "0", commit: "none", tree: "clean", date: "2000-01-01" },
+  made: { version: "0", commit: "none", tree: "clean", date: "2000-01-01", command: "touchstone report" },
   origins: { gjk: "ours" },
   results,
   scenes,

@@ -1,11 +1,11 @@
-// Takes a small picture of each view of a page: node test/views.mjs REPORT.html FOLDER
+// Takes a small picture of each view of a page, or of one: node test/views.mjs REPORT.html FOLDER [NAME]
 import { mkdir, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { launch, open } from "./pages.mjs";
 import { small_png } from "./small_png.mjs";
 
-const [report, folder] = process.argv.slice(2);
-if (!folder) throw new Error("usage: node test/views.mjs REPORT.html FOLDER");
+const [report, folder, only] = process.argv.slice(2);
+if (!folder) throw new Error("usage: node test/views.mjs REPORT.html FOLDER [NAME]");
 const most_bytes = 60_000; // of a picture
 const most_bytes_of_all = 500_000;
 
@@ -14,6 +14,8 @@ async function open_pair(page) {
   await pair.locator("summary").first().click();
   await pair.getByText("show the gap").click();
 }
+
+const open_version = (page) => page.locator('#wrong-by-version button[aria-label^="mujoco 3.9.0"]').click();
 
 const choose_axis = (page, axis) => page.locator("#stress-breaks select").first().selectOption({ label: axis });
 
@@ -32,6 +34,7 @@ async function play_two(page) {
 // A view is an element of the page, or its upper part, after what a reader does to see it.
 const views = [
   { name: "first_screen", element: "#fastest", height: 860, width: 1240 },
+  { name: "versions", element: "#wrong-by-version", height: 1560, act: open_version },
   { name: "curves", element: "#reference-curves .panels" },
   { name: "winners", element: "#reference-fastest", height: 560 },
   { name: "phases", element: "#reference-phases figure" },
@@ -69,6 +72,7 @@ async function smaller(screenshot) {
 
 let bytes_of_all = 0;
 for (const { name, element, width = 1040, height = Infinity, dark = false, act } of views) {
+  if (only && name !== only) continue;
   const { page, complaints } = await open(browser, report, "", {
     viewport: { width, height: 900 },
     colorScheme: dark ? "dark" : "light",

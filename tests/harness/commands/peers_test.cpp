@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 
+#include "harness/files/cases.h"
+#include "harness/files/json_line.h"
 #include "harness/files/text_file.h"
 #include "tests/harness/commands/program.h"
 #include "tests/harness/temporary_folder.h"
@@ -249,6 +252,24 @@ TEST_F(Adapters, TellInWhichVersionAnswersChanged) {
     EXPECT_EQ(std::stoi(row[2]) > 0, row[0] != "2.0") << row[0];
   }
   EXPECT_THAT(versions, ElementsAre("1.0", "1.10", "2.0"));
+  // Each count of wrong answers has a pair, which says what all versions answered.
+  std::set<std::string> kept, counted;
+  files::for_each_json_line(path("out/wrong_pairs.jsonl"), "a pair", [&](const auto& line) {
+    EXPECT_EQ(line.value()["answers"].size(), 3U);
+    for (const auto& answer : line.value()["answers"]) {
+      const bool is_wrong = answer["grade"] == "wrong";
+      EXPECT_EQ(is_wrong, answer["error"].template get<double>() > 1e-4);
+      if (!is_wrong) continue;
+      kept.insert(answer["algorithm"].template get<std::string>() + " " +
+                  line.value()["group"].template get<std::string>());
+    }
+  });
+  for (const auto& row : read_rows(path("out/versions.csv"), {"algorithm", "group", "wrong"})) {
+    if (row[2] != "0") counted.insert(row[0] + " " + row[1]);
+  }
+  EXPECT_GT(counted.size(), 1U);
+  EXPECT_EQ(kept, counted);
+  EXPECT_FALSE(files::read_cases(path("out/wrong_pairs.jsonl")).empty());
   int changes = 0, right = 0;
   for (const auto& row :
        read_rows(path("out/version_changes.csv"), {"from", "to", "became", "exact"})) {

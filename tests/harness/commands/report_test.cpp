@@ -111,6 +111,16 @@ TEST_F(Report, NamesFoldersByTheirOwnNames) {
   EXPECT_THAT(names(path + "/grids"), testing::ElementsAre("grids/a/grid", "grids/b/grid"));
 }
 
+TEST_F(Report, TakesFoldersOfVersions) {
+  make_results();
+  expect_refusal("report --versions " + results + page + out, "results: no versions.csv in it",
+                 folder);
+  folder.write("results/versions.csv", "library,version\nlib,1\n");
+  const nlohmann::json whole = bundle("--versions " + results);
+  EXPECT_TRUE(whole["results"][0]["files"].contains("versions.csv"));
+  EXPECT_THAT(std::string(whole["made"]["command"]), HasSubstr("report --versions"));
+}
+
 TEST_F(Report, SaysWhatIsMissing) {
   make_results();
   expect_refusal("report" + page + out, "nothing to report", folder);

@@ -209,5 +209,49 @@ TEST_F(Results, HaveBodiesWithTheFacesOfTheirHulls) {
   EXPECT_EQ(shape["faces"].size(), 4U);
 }
 
+// A pair that a version gets wrong, as `check` writes it.
+std::string wrong_pair(const std::string& grade = "wrong") {
+  std::string line = ball_at("1.5");
+  return line.substr(0, line.size() - 2) +
+         R"(,"group":"gap","answers":[{"algorithm":"lib@1","scalar":"double","task":"signed","grade":")" +
+         grade +
+         R"(","error":0.5,"answer":"touching","status":"ok","distance":0,"normal":[1,0,0]},)"
+         R"({"algorithm":"fcl-indep","scalar":"double","task":"signed","grade":"wrong","error":0.5,)"
+         R"("answer":"touching","status":"ok"}]})"
+         "\n";
+}
+
+TEST_F(Results, HaveThePairsThatVersionsGetWrong) {
+  folder.write("versions.csv", "a\n");
+  folder.write("wrong_pairs.jsonl", wrong_pair());
+  const OrderedJson whole = view();
+  ASSERT_EQ(whole["cases"].size(), 1U) << whole["notes"];
+  const OrderedJson& one = whole["cases"][0];
+  EXPECT_EQ(one["truth"]["answer"], "separated");
+  EXPECT_EQ(one["truth"]["lower"], 0.5);
+  const OrderedJson& recorded = one["recorded"];
+  EXPECT_EQ(recorded["group"], "gap");
+  ASSERT_EQ(recorded["answers"].size(), 2U);
+  EXPECT_EQ(recorded["answers"][0]["grade"], "silent");
+  EXPECT_EQ(recorded["answers"][0]["why"], "off by 0.5 of the size");
+  EXPECT_EQ(recorded["answers"][0]["normal"], OrderedJson({1, 0, 0}));
+  EXPECT_TRUE(recorded["answers"][0]["witness_a"].is_null());
+  ASSERT_EQ(recorded["tests"].size(), 1U) << "a library that has a form as a test";
+  EXPECT_EQ(recorded["tests"][0]["algorithm"], "fcl-indep");
+  EXPECT_THAT(std::string(recorded["tests"][0]["text"]), HasSubstr("TEST(ExactPairs"));
+  EXPECT_GT(one["answers"].size(), 10U) << "algorithms are asked too";
+}
+
+TEST_F(Results, SayWhatIsWrongWithThePairsOfVersions) {
+  folder.write("versions.csv", "a\n");
+  folder.write("wrong_pairs.jsonl", wrong_pair("bad"));
+  const OrderedJson whole = view();
+  EXPECT_EQ(whole["cases"].size(), 0U);
+  ASSERT_EQ(whole["notes"].size(), 1U);
+  EXPECT_THAT(
+      std::string(whole["notes"][0]),
+      HasSubstr("wrong_pairs.jsonl:1: answers[0].grade: found 'bad'; expected right, wrong"));
+}
+
 }  // namespace
 }  // namespace touchstone::report

@@ -197,6 +197,11 @@ std::string names_with_reproducers() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+bool has_reproducer(std::string_view algorithm) {
+  return std::ranges::find(library_tests(), algorithm, &LibraryTest::algorithm) !=
+         library_tests().end();
+}
+
 std::string reproducer(std::string_view algorithm, std::span<const files::Case> cases, Task task,
                        const std::filesystem::path& file) {
   const auto test = std::ranges::find(library_tests(), algorithm, &LibraryTest::algorithm);

@@ -14,6 +14,7 @@ namespace touchstone::kinds {
 
 // The algorithms of libraries that have such a form, joined by commas.
 std::string names_with_reproducers();
+bool has_reproducer(std::string_view algorithm);
 
 // The text of the test, which fails if the library is on the wrong side of contact, or a number that the task
 // asks for is off by more than usual_depth_error of the pair's size, as in the summary of a run. `file` is its name, for

@@ -12,6 +12,7 @@ export function answers(folder: Folder, origins: Record<string, string>, approxi
     ...timed(folder),
     ...agreed(folder, approximate),
     ...checked(folder, origins),
+    ...versioned(folder),
     ...swept(folder),
     ...soaked(folder),
     ...traded(folder),
@@ -87,6 +88,18 @@ function checked(folder: Folder, origins: Record<string, string>): string[] {
         `${count_text(total(rows, "crashed"))} crashed.`,
     ];
   });
+}
+
+function versioned(folder: Folder): string[] {
+  const rows = folder.rows("versions.csv");
+  if (rows.length === 0) return [];
+  const libraries = distinct(rows.map((row) => row.text("library"))).length;
+  const versions = distinct(rows.map((row) => row.text("algorithm")));
+  const wrong = versions.filter((name) => total(rows.filter((row) => row.text("algorithm") === name), "wrong") > 0);
+  return [
+    `${versions.length} versions of ${libraries} libraries gave ${count_text(total(rows, "answers"))} answers; ` +
+      `${count_text(total(rows, "wrong"))} are wrong, of ${wrong.length} versions.`,
+  ];
 }
 
 function swept(folder: Folder): string[] {

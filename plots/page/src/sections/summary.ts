@@ -79,3 +79,21 @@ const hash_table = (title: string, rows: [string, string][]): HTMLElement | null
           ),
         ),
       );
+
+// When and by which commands the page and its results were made.
+export function foot({ made }: Bundle, folders: Folder[]): HTMLElement {
+  const measured = folders.flatMap((folder) => {
+    const begun = folder.fact("begun"),
+      command = folder.fact("command_line");
+    if (!begun && !command) return [];
+    return [
+      make("p", {}, `${folder.name}: ${begun}${begun && command ? ", " : ""}`, command ? make("code", {}, command) : null),
+    ];
+  });
+  return make(
+    "footer",
+    {},
+    make("p", {}, `This page: ${made.date}${made.command ? ", " : ""}`, made.command ? make("code", {}, made.command) : null),
+    ...measured,
+  );
+}

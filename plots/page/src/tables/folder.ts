@@ -1,7 +1,7 @@
 // A folder holds the results of one run. Its files are parsed when somebody first asks for them, since most are
 // never looked at.
 import { fresh_anchor } from "../base/anchors";
-import type { Results } from "../bundle";
+import type { CaseView, Results } from "../bundle";
 import { file_grid, type GridOptions } from "./grid";
 import { pairs_of, type Pair } from "./pairs";
 import { Row, Table } from "./table";
@@ -16,9 +16,11 @@ export class Folder {
   readonly name: string; // the program makes it different from all others of the page
 
   readonly pairs: Pair[];
+  readonly recorded: CaseView[]; // pairs with the answers of versions
 
   constructor(readonly results: Results) {
-    this.pairs = pairs_of(results.cases);
+    this.pairs = pairs_of(results.cases.filter(({ recorded }) => !recorded));
+    this.recorded = results.cases.filter(({ recorded }) => recorded);
     this.name = results.name;
     this.anchor = fresh_anchor(this.name);
     this.texts = new Map(Object.entries(results.files));

@@ -83,7 +83,7 @@ std::vector<std::vector<std::string>> commands_in(const std::string& text) {
 // The names of algorithms, of groups of them, and none.
 bool is_known_name(const std::string& name) {
   static const std::set<std::string> names = [] {
-    std::set<std::string> all = {"all", "ours", "peers", "oracle", "none"};
+    std::set<std::string> all = {"all", "ours", "libraries", "peers", "oracle", "none"};
     const auto add = [&](const auto& entries) {
       for (const auto& entry : entries) all.insert(entry.info.name);
     };
