@@ -266,8 +266,7 @@ void add_check(Arguments command) {
                         command.option("--save-certificates")}) {
     option.excludes(file);
   }
-  for (const char* name :
-       {"--regimes", "--groups", "--seconds", "--save-certificates", "--broad"}) {
+  for (const char* name : {"--regimes", "--groups", "--seconds", "--broad"}) {
     axes.excludes(command.option(name));
   }
   for (const char* name : {"--cases", "--seconds", "--page", "--save-certificates", "--broad"}) {

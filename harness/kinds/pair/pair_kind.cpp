@@ -4,6 +4,7 @@
 
 #include "harness/base/error.h"
 #include "harness/files/cases.h"
+#include "harness/files/packed_files.h"
 #include "harness/kinds/grading.h"
 #include "harness/kinds/mesh/mesh_kind.h"
 #include "harness/kinds/pair/axes/axes.h"
@@ -12,6 +13,8 @@
 
 namespace touchstone::kinds {
 namespace {
+
+constexpr std::string_view group_of_file = "file";
 
 std::vector<Family> pair_families() {
   std::vector<Family> list;
@@ -58,6 +61,10 @@ std::vector<const Axis*> PairRequest::axes() const {
   return list;
 }
 
+bool PairRequest::is_of_file() const {
+  return regimes.size() == 1 && regimes.front()->group == group_of_file;
+}
+
 namespace {
 
 // A regime draws by a plain function, so its cases are here.
@@ -76,8 +83,8 @@ RegimeCase case_of_file(RegimeDraw& draw) {
 void take_case_file(const std::filesystem::path& file, CheckRequest& request) {
   static Regime regime;
   static Family family;
-  regime.name = file.stem().string();
-  regime.group = "file";
+  regime.name = (files::is_packed(file) ? file.stem() : file).stem().string();
+  regime.group = group_of_file;
   regime.what = "pairs of a file";
   regime.extreme = true;
   regime.draw = case_of_file;
