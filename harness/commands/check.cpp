@@ -262,8 +262,7 @@ void add_check(Arguments command) {
   command.exclude_others("--certificates");
   axes.excludes(count);
   for (Option option : {axes, count, cases, command.option("--regimes"), command.option("--groups"),
-                        command.option("--seed"), command.option("--seconds"),
-                        command.option("--save-certificates")}) {
+                        command.option("--seed"), command.option("--seconds")}) {
     option.excludes(file);
   }
   for (const char* name : {"--regimes", "--groups", "--seconds", "--broad"}) {
