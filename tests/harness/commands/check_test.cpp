@@ -101,6 +101,11 @@ TEST_F(CheckCommand, ScoresOfAFile) {
   EXPECT_EQ(rows[0][2], rows[0][1]);
   EXPECT_EQ(rows[0][3], rows[0][1]);
   EXPECT_THAT(column("grades.csv", "grade"), ElementsAre("right"));
+  const std::string proofs = path("proofs.jsonl");
+  const Ran saved = run_program("check " + path("two.jsonl") + " --save-certificates " + proofs);
+  EXPECT_EQ(saved.status, 0) << saved.text;
+  const Ran verified = run_program("check --certificates " + proofs);
+  EXPECT_THAT(verified.text, HasSubstr("2 certificates verified, 0 refused"));
 }
 
 TEST_F(CheckCommand, Filters) {
