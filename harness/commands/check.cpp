@@ -264,12 +264,10 @@ void add_check(Arguments command) {
   command.exclude_others("--certificates");
   axes.excludes(count);
   for (Option option : {axes, count, cases, command.option("--regimes"), command.option("--groups"),
-                        command.option("--seed"), command.option("--seconds"),
-                        command.option("--save-certificates")}) {
+                        command.option("--seed"), command.option("--seconds")}) {
     option.excludes(file);
   }
-  for (const char* name :
-       {"--regimes", "--groups", "--seconds", "--save-certificates", "--broad"}) {
+  for (const char* name : {"--regimes", "--groups", "--seconds", "--broad"}) {
     axes.excludes(command.option(name));
   }
   for (const char* name : {"--cases", "--seconds", "--page", "--save-certificates", "--broad"}) {

@@ -22,6 +22,7 @@ enum class Grade : std::uint8_t {
   gave_up,  // the status says that the answer is not to be trusted, or there is no answer
   failed,   // a crash, or no answer in time
 };
+std::string_view to_string(Grade grade);
 
 struct Graded {
   Grade grade = Grade::not_asked;
@@ -41,6 +42,9 @@ struct GradeCount {
   void add(const GradeCount& other);
   // Answers that are wrong without a word: missed, false or inexact.
   std::int64_t silent() const { return missed + false_hits + inexact; }
+  // As in contests of software verification: a right answer counts 1, one that is wrong without a word -16, and all
+  // else 0.
+  std::int64_t score() const { return right - 16 * silent(); }
 };
 
 // The columns that every file of such counts has.

@@ -108,6 +108,13 @@ void add_axis(std::vector<Family>& list, const std::string& axis,
   }
 }
 
+std::string_view to_string(Grade grade) {
+  constexpr std::array<std::string_view, 10> names = {"not_asked", "unresolved", "right",   "near",
+                                                      "missed",    "false",      "inexact", "bound",
+                                                      "gave_up",   "failed"};
+  return names[static_cast<std::size_t>(grade)];
+}
+
 void GradeCount::add(const Graded& graded, std::int64_t index) {
   if (graded.grade == Grade::not_asked) return;
   ++cases;

@@ -131,6 +131,16 @@ double badness(double margin, double error) {
   return std::isnan(error) ? 0 : std::min(error, 1e3);
 }
 
+std::string AxisChecker::certificates(std::uint32_t family) {
+  AxisSummary summary;
+  std::string lines;
+  for (const grade::TrueCase& c :
+       axis_cases(request_, request_.regime_of(family), oracle_, summary)) {
+    lines += proof_line(c.pair(), oracle_);
+  }
+  return lines;
+}
+
 AxisRows AxisChecker::rows_of_job(std::uint32_t family, std::uint64_t /*round*/) {
   return AxisJob(request_, request_.regime_of(family), oracle_).run();
 }

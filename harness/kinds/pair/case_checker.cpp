@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -121,6 +122,26 @@ constexpr std::string_view summary_key =
     "margins. All against the exact answer for the bits that the algorithm was given; lengths as\n"
     "parts of the pair's size.\n";
 
+// The contestants of a file of cases, by their scores.
+base::Table score_table(const PairRequest& request, const std::map<RegimeKey, GradeCount>& grades) {
+  std::vector<std::pair<RegimeKey, GradeCount>> sorted(grades.begin(), grades.end());
+  std::ranges::stable_sort(sorted, std::greater(),
+                           [](const auto& one) { return one.second.score(); });
+  base::Table table({"", "answers", "right", "no fault", "gave up", "failed", "wrong", "score"});
+  for (const auto& [key, grade] : sorted) {
+    table.add({request.name({key.entry, key.scalar}), count(grade.cases), count(grade.right),
+               count(grade.near + grade.bound), count(grade.gave_up), count(grade.failed),
+               count(grade.silent()), count(grade.score())});
+  }
+  return table;
+}
+
+constexpr std::string_view score_key =
+    "score: 1 for each right answer, -16 for each wrong one (missed, false or inexact), 0 for all\n"
+    "else; no fault: near, or a bound by design. After a hundred crashes and hangs a contestant "
+    "is\n"
+    "asked no more.\n";
+
 // The checks of cases, certificates and boxes.
 std::string checked_text(const std::vector<JobSummary>& jobs) {
   JobSummary all;
@@ -231,6 +252,7 @@ std::string other_forms(const GroupedCounts& grouped) {
 void CaseChecker::add(const grade::GradedAnswer& answer) {
   const RegimeKey key = {answer.entry, answer.scalar, answer.regime};
   answers_[key].add(answer);
+  grades_[key].add(request_.graded(answer), static_cast<std::int64_t>(answer.index));
   // Answers of ours beyond the margins come before all that are within them.
   const double bad = answer.beyond ? 1e10 + badness(answer) : badness(answer);
   if (bad == 0) return;
@@ -268,7 +290,8 @@ void CaseChecker::finish() {
   std::vector<SummaryRow> rows;
   for (const auto& [key, answers] : answers_) {
     const auto flips = flips_.find(key);
-    rows.push_back({key, answers, flips == flips_.end() ? FlipCount() : flips->second});
+    rows.push_back(
+        {key, answers, flips == flips_.end() ? FlipCount() : flips->second, grades_.at(key)});
   }
   record::write_rows(request_.out / "summary.csv", rows, request_);
 }
@@ -313,8 +336,12 @@ std::vector<std::string> CaseChecker::commands() const {
 
 std::string CaseChecker::text(std::size_t page_width) const {
   if (request_.narrow.empty()) return "";
-  return summary_table(request_, GroupedCounts(*this)).text(page_width) + '\n' +
-         std::string(summary_key) + '\n' + checked_text(jobs_);
+  std::string text = summary_table(request_, GroupedCounts(*this)).text(page_width) + '\n' +
+                     std::string(summary_key) + '\n';
+  if (request_.is_of_file()) {
+    text += score_table(request_, grades_).text(page_width) + '\n' + std::string(score_key) + '\n';
+  }
+  return text + checked_text(jobs_);
 }
 
 std::string CaseChecker::page(const std::string& /*pictures*/) const {

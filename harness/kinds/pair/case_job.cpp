@@ -185,7 +185,9 @@ class PairJob {
   CaseRows rows_;
 };
 
-files::StoredCertificate prove(const files::Case& c, oracle::Oracle& oracle) {
+}  // namespace
+
+std::string proof_line(const files::Case& c, oracle::Oracle& oracle) {
   files::StoredCertificate stored;
   stored.id = c.id;
   stored.encoding = to_string(Encoding::as_given);
@@ -195,17 +197,14 @@ files::StoredCertificate prove(const files::Case& c, oracle::Oracle& oracle) {
   stored.pose_b = c.pose_b;
   const oracle::Solid a(c.shape_a), b(c.shape_b);
   oracle.prove({a, c.pose_a}, {b, c.pose_b}, stored.certificate);
-  return stored;
+  return files::to_json(stored) + '\n';
 }
-
-}  // namespace
 
 std::string CaseChecker::certificates(std::uint32_t family) {
   const Regime& regime = *request_.regimes[request_.regime_of(family)];
   std::string lines;
   for (int index = 0; index < request_.cases; ++index) {
-    const files::Case c = make(regime, request_.seed, static_cast<std::uint64_t>(index));
-    lines += files::to_json(prove(c, oracle_)) + '\n';
+    lines += proof_line(make(regime, request_.seed, static_cast<std::uint64_t>(index)), oracle_);
   }
   return lines;
 }

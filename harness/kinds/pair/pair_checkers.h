@@ -44,6 +44,7 @@ class CaseChecker final
 
   const std::map<RegimeKey, grade::AnswerCount>& answers() const { return answers_; }
   const std::map<RegimeKey, FlipCount>& flips() const { return flips_; }
+  const std::map<RegimeKey, GradeCount>& grades() const { return grades_; }
   const std::vector<JobSummary>& jobs() const { return jobs_; }
   const std::vector<FailureCase>& failures() const { return failures_; }
   const std::vector<VariantFailure>& variant_failures() const { return variant_failures_; }
@@ -62,6 +63,7 @@ class CaseChecker final
   oracle::Oracle oracle_;
   std::map<RegimeKey, grade::AnswerCount> answers_;
   std::map<RegimeKey, FlipCount> flips_;
+  std::map<RegimeKey, GradeCount> grades_;
   std::vector<JobSummary> jobs_;
   std::vector<VariantCount>
       variants_beyond_;  // that contain differences of ours beyond the margins
@@ -84,6 +86,7 @@ class AxisChecker final : public RowChecker<AxisChecker, AxisCount, AxisSummary>
   void add(const AxisCount& count) { counts_.push_back(count); }
   void add(const AxisSummary& summary) { summaries_.push_back(summary); }
 
+  std::string certificates(std::uint32_t family) override;
   // Also writes envelope.csv.
   void finish() override;
   // Of ours in double what is silently wrong, crashed or hung.
@@ -129,6 +132,9 @@ class CountChecker final : public RowChecker<CountChecker, VerdictCount> {
   std::map<RegimeKey, VerdictCount> verdicts_;
   std::vector<FailureCase> failures_;
 };
+
+// Proves the exact answer of a case: the certificate as a line, with its line break.
+std::string proof_line(const files::Case& c, oracle::Oracle& oracle);
 
 // Returns the cases of a value of an axis with their exact answers.
 std::vector<grade::TrueCase> axis_cases(const PairRequest& request, std::uint32_t regime,

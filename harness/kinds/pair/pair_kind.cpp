@@ -14,6 +14,7 @@
 namespace touchstone::kinds {
 namespace {
 
+
 std::vector<Family> pair_families() {
   std::vector<Family> list;
   for (const Regime& regime : regimes()) list.push_back(family_of(regime));
@@ -73,6 +74,10 @@ RegimeCase case_of_file(RegimeDraw& draw) {
 }
 
 }  // namespace
+
+bool PairRequest::is_of_file() const {
+  return regimes.size() == 1 && regimes.front()->draw == case_of_file;
+}
 
 void take_case_file(const std::filesystem::path& file, CheckRequest& request) {
   static Regime regime;

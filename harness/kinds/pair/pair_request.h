@@ -9,6 +9,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/kinds/check_request.h"
+#include "harness/kinds/pair/pair_grade.h"
 #include "harness/kinds/pair/regimes/regimes.h"
 
 namespace touchstone::kinds {
@@ -37,6 +38,12 @@ struct PairRequest : CheckRequest {
   std::string name(const CheckedAlgorithm& algorithm) const {
     return narrow[algorithm.entry]->info.name + " " + std::string(to_string(algorithm.scalar));
   }
+  // The grade of a row, whose entry and regime are places in the request.
+  Graded graded(const grade::GradedAnswer& answer) const {
+    return grade_pair(*narrow[answer.entry], answer, regimes[answer.regime]->extreme);
+  }
+  // True if the cases are those of a file.
+  bool is_of_file() const;
   bool is_ours(std::uint32_t entry) const { return narrow[entry]->info.origin == Origin::ours; }
 };
 

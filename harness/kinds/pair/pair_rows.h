@@ -13,6 +13,7 @@
 #include "harness/grade/graded_answer.h"
 #include "harness/grade/wrong.h"
 #include "harness/kinds/pair/axes/axes.h"
+#include "harness/kinds/pair/pair_grade.h"
 #include "harness/kinds/pair/pair_request.h"
 #include "harness/record/row.h"
 
@@ -213,6 +214,8 @@ void columns(Row& row, Visit visit, const PairRequest& subjects) {
   visit("witness_length_error", row.witnesses.length_error,
         "Distance of the witness points less the reported distance, metres.");
   visit("normal_error", row.witnesses.normal_error, "Length of the normal less 1, absolute.");
+  visit("grade", record::derived([&] { return subjects.graded(row).grade; }),
+        "Grade of the answer, in the words of all kinds.");
 }
 
 template <record::row_of<VariantCount> Row, class Visit>
@@ -252,11 +255,12 @@ struct SummaryRow {
   RegimeKey key;
   grade::AnswerCount answers;
   FlipCount flips;
+  GradeCount grades;
 };
 
 template <record::row_of<SummaryRow> Row, class Visit>
 void columns(Row& row, Visit visit, const PairRequest& subjects) {
-  auto& [key, a, f] = row;
+  auto& [key, a, f, grades] = row;
   algorithm_columns(key, visit, subjects);
   regime_column(key.regime, visit, subjects, "Regime of the cases.");
   group_column(key.regime, visit, subjects);
@@ -294,6 +298,13 @@ void columns(Row& row, Visit visit, const PairRequest& subjects) {
   visit("flips", f.flips, "Answers of these on the other side of contact.");
   visit("worst_flip", f.worst_flip, "Greatest exact distance of a flip.");
   visit("worst_difference", f.worst_difference, "Greatest difference of a distance or depth.");
+  visit("unresolved", grades.unresolved, "Answers about pairs whose exact answer is not known.");
+  visit("right", grades.right, "Answers that are right.");
+  grade_columns(grades, visit);
+  visit("failed", grades.failed, "Queries that crashed, or gave no answer in time.");
+  std::int64_t score = grades.score();
+  visit("score", record::with_sign(score),
+        "1 for each right answer, -16 for each that is missed, false or inexact, 0 for all else.");
 }
 
 // Visits the columns `axis` and `value`, which identify the row's regime.

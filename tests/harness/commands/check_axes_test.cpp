@@ -84,6 +84,17 @@ TEST_F(CheckAxes, TheSameSeedGivesTheSameRows) {
   EXPECT_NE(folder.read("out/stress.csv"), rows);
 }
 
+TEST_F(CheckAxes, ProofsOfItsCasesAreSavedAndVerified) {
+  const std::string proofs = path("proofs.jsonl");
+  const std::string drawn = "check --kind pair --axes gap,coplanar --cases 2 ";
+  const Ran ran = run_program(drawn + "--save-certificates " + proofs);
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  const Ran verified = run_program("check --certificates " + proofs);
+  EXPECT_EQ(verified.status, 0) << verified.text;
+  EXPECT_THAT(verified.text, HasSubstr(" certificates verified, 0 refused"));
+  EXPECT_THAT(folder.read("proofs.jsonl"), HasSubstr("\"id\":\"stress-coplanar-"));
+}
+
 TEST_F(CheckAxes, BadRequests) {
   expect_refusal("--narrow what", "no narrow phase is called 'what'");
   expect_refusal("--narrow none", "no algorithm that is named has cases of these axes");
@@ -99,8 +110,8 @@ TEST_F(CheckAxes, BadRequests) {
   }
   expect_refusal("--cases 3 --quick", "--quick");
   expect_refusal("--cases 100001", "--cases: found 100001; expected at most 100000 with --axes");
-  for (const char* option : {"--regimes gap-1e-3", "--group gap", "--seconds 1", "--broad ours",
-                             "--save-certificates x.jsonl", "--count 1000"}) {
+  for (const char* option :
+       {"--regimes gap-1e-3", "--group gap", "--seconds 1", "--broad ours", "--count 1000"}) {
     expect_refusal(option, "--axes excludes --");
   }
   touchstone::expect_refusal("check --quick", "--quick requires --axes", folder);

@@ -85,6 +85,29 @@ TEST_F(CheckCommand, APeersDefectIsNoFailureAndIsReplayed) {
   }
 }
 
+TEST_F(CheckCommand, ScoresOfAFile) {
+  const std::string box = R"({"shape":{"type":"box","half_extents":[1,1,1]}})";
+  folder.write("two.jsonl",
+               R"({"id":"x","a":)" + box +
+                   R"(,"b":{"shape":{"type":"sphere","radius":1},"translation":[3,0,0]}}
+{"id":"y","a":)" + box +
+                   R"(,"b":)" + box + "}\n");
+  const Ran ran = run_program("check " + path("two.jsonl") + " --with gjk --scalar double" + out());
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("gave up  failed  wrong  score"));
+  const auto rows = read_rows(path("out/summary.csv"), {"regime", "answers", "right", "score"});
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0][0], "two");
+  EXPECT_EQ(rows[0][2], rows[0][1]);
+  EXPECT_EQ(rows[0][3], rows[0][1]);
+  EXPECT_THAT(column("grades.csv", "grade"), ElementsAre("right"));
+  const std::string proofs = path("proofs.jsonl");
+  const Ran saved = run_program("check " + path("two.jsonl") + " --save-certificates " + proofs);
+  EXPECT_EQ(saved.status, 0) << saved.text;
+  const Ran verified = run_program("check --certificates " + proofs);
+  EXPECT_THAT(verified.text, HasSubstr("2 certificates verified, 0 refused"));
+}
+
 TEST_F(CheckCommand, Filters) {
   const Ran ran = check(
       "--narrow gjk,sat --scalar float --group touching --regimes gap-1e-3 --cases 2 --broad none "

@@ -569,5 +569,67 @@ TEST(MutatedProofs, OfEveryKindThatAreVerifiedAreTrue) {
   }
 }
 
+// Whether the claim does not hold: its answer is not the exact one, or a bound is on the wrong side of it.
+bool is_false(const files::StoredCertificate& stored) {
+  const oracle::Certificate& claim = stored.certificate;
+  for (const oracle::SignedRoot* root : {&claim.lower, &claim.upper}) {
+    if (root->sign != 0 && (root->numerator <= 0 || root->denominator < 0)) return false;
+  }
+  const oracle::Solid a(stored.shape_a), b(stored.shape_b);
+  const oracle::Measure truth = oracle::Oracle().measure({a, stored.pose_a}, {b, stored.pose_b});
+  if (claim.answer != Answer::unknown && truth.answer != Answer::unknown &&
+      claim.answer != truth.answer) {
+    return true;
+  }
+  return oracle::round_less(claim.lower, a.radius, b.radius).low > truth.upper ||
+         oracle::round_less(claim.upper, a.radius, b.radius).high < truth.lower;
+}
+
+// --gtest_random_seed draws other changes.
+TEST(MutatedProofs, OfTheCorpusThatAreFalseAreRefused) {
+  const TemporaryFolder folder;
+  std::vector<Json> whole;
+  files::for_each_json_line(
+      std::filesystem::path(project_folder) / "datasets/corpus/2026/proofs.jsonl.zst", "proof",
+      [&](const files::JsonNode& line) { whole.push_back(line.value()); });
+  Random random(25 + static_cast<unsigned>(GTEST_FLAG_GET(random_seed)));
+  const auto pick = [&] {
+    return whole[static_cast<std::size_t>(random.below(static_cast<int>(whole.size())))];
+  };
+  std::vector<Json> proofs;
+  std::vector<bool> verified;
+  int false_ones = 0;
+  for (int i = 0; i < drawn(600, 60); ++i) {
+    const Json original = pick();
+    Json proof = original;
+    for (int k = 0; k <= random.below(3); ++k) change(proof, pick(), random);
+    // Another type may leave keys that the verifier in Python alone refuses.
+    const auto has_other_type = [&](const Place& type) {
+      return proof.contains(type) && proof[type] != original[type];
+    };
+    if (has_other_type(Place("/a/shape/type")) || has_other_type(Place("/b/shape/type"))) continue;
+    write_lines(folder, {proof});
+    Judged judged;
+    bool is_wrong = false;
+    try {
+      const auto file = folder.path() / "proof.jsonl";
+      judge_pairs(file, judged);
+      files::read_certificates(file, [&](const files::StoredCertificate& stored, std::int64_t) {
+        is_wrong = is_false(stored);
+      });
+    } catch (const base::InputError&) {
+      ++judged.malformed;
+    }
+    false_ones += is_wrong ? 1 : 0;
+    EXPECT_FALSE(is_wrong && judged.verified > 0) << proof.dump();
+    proofs.push_back(std::move(proof));
+    verified.push_back(judged.verified > 0);
+  }
+  expect_the_same_of_python(folder, proofs, verified);
+  std::cout << false_ones << " false proofs of " << proofs.size() << " are refused\n";
+  EXPECT_GT(false_ones, 100 / one_in);
+  EXPECT_GT(std::ranges::count(verified, true), 50 / one_in);
+}
+
 }  // namespace
 }  // namespace touchstone
