@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,13 @@
 #include "harness/base/table.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
 #include "harness/files/text_file.h"
-#include "harness/files/toml_table.h"
 #include "harness/geometry/concave_bodies.h"
 #include "harness/report/link_contacts.h"
-#include "harness/scene/pair_filter.h"
-#include "harness/scene/robot/robot_scene.h"
+#include "harness/scene/robot/robot.h"
+#include "harness/scene/scene.h"
 #include "harness/trade/advice/budget.h"
 
 namespace touchstone::commands {
@@ -31,50 +32,39 @@ constexpr std::size_t most_rows_shown = 12;
 constexpr double frame_seconds = 10;
 
 struct RobotOptions {
-  std::string robot, scene, srdf, path, meshes = "surface";
+  std::string robot, scene, srdf, path, out, meshes = "surface";
   int random = 1000;
   std::int64_t seed = 1;
-  std::vector<std::string> outs;
 };
 
 bool is_yaml(const fs::path& file) {
   return file.extension() == ".yaml" || file.extension() == ".yml";
 }
 
-// The scene of the robot, with configurations, among the bodies of another one.
-scene::Scene scene_of(const RobotOptions& options) {
+// The text of a scene of the robot and what is around it, for `run` and others.
+std::string scene_text(const RobotOptions& options) {
   toml::table keys;
-  const auto add_file = [&](const char* key, const std::string& file) {
-    if (!file.empty()) keys.insert(key, fs::absolute(file).string());
-  };
-  add_file("srdf", options.srdf);
-  const bool is_planning = is_yaml(options.scene);
-  if (is_planning) add_file("obstacles", options.scene);
+  const auto absolute = [](const std::string& file) { return fs::absolute(file).string(); };
+  toml::array imports{absolute(options.robot)};
+  if (is_yaml(options.scene)) {
+    keys.insert("obstacles", absolute(options.scene));
+  } else if (!options.scene.empty()) {
+    imports.push_back(absolute(options.scene));
+  }
+  keys.insert("import", std::move(imports));
+  if (!options.srdf.empty()) keys.insert("srdf", absolute(options.srdf));
+  keys.insert("meshes", options.meshes);
+  keys.insert("moving", false);
   if (!options.path.empty()) {
-    add_file("configurations", options.path);
+    keys.insert("configurations", absolute(options.path));
   } else {
     keys.insert("configurations",
                 toml::table{{"random", std::int64_t{options.random}}, {"seed", options.seed}});
   }
-  files::TomlTable table(keys, options.robot, "");
-  const auto use =
-      static_cast<scene::MeshUse>(std::ranges::find(geometry::mesh_use_names, options.meshes) -
-                                  geometry::mesh_use_names.begin());
-  scene::Scene scene = scene::import_robot(table, options.robot, use, {});
-  if (!options.scene.empty() && !is_planning) {
-    scene::Scene around = scene::load_scene(options.scene);
-    if (!around.recording.empty()) {
-      throw base::InputError(options.scene, 0, "is a recording of boxes; expected bodies");
-    }
-    for (scene::Body& body : around.bodies) body.moving = false;
-    around.names.resize(around.bodies.size());
-    for (std::size_t i = 0; i < around.names.size(); ++i) {
-      if (around.names[i].empty()) around.names[i] = fmt::format("body {}", i);
-    }
-    scene::append(std::move(around), scene);
-  }
-  scene::ignore_fixed_pairs(scene);
-  return scene;
+  std::ostringstream text;
+  text << "# Written by `touchstone robot`: the robot, and around it bodies that stand still.\n"
+       << keys << "\n";
+  return text.str();
 }
 
 std::string share(std::size_t count, std::size_t of) {
@@ -93,7 +83,7 @@ void print_pairs(const std::string& title, std::vector<report::LinkPair> pairs, 
   }
   fmt::print("{}", table.text(base::page_width()));
   if (pairs.size() > most_rows_shown) {
-    fmt::print("and {} more pairs (--out PAIRS.csv)\n", pairs.size() - most_rows_shown);
+    fmt::print("and {} more pairs\n", pairs.size() - most_rows_shown);
   }
 }
 
@@ -145,16 +135,23 @@ std::string proposal(const scene::Robot& robot, const report::LinkContacts& foun
 }
 
 int look_at(const RobotOptions& options) {
-  for (const std::string& out : options.outs) {
-    const fs::path ending = fs::path(out).extension();
-    if (ending != ".csv" && ending != ".srdf") {
-      throw base::InputError("--out: found " + out + "; expected a name ending in .csv or .srdf");
-    }
+  const fs::path out =
+      results_folder(options.out, fs::path(options.robot).stem().string(), "robot-");
+  const fs::path scene_file = out / "scene.toml", pairs_file = out / "pairs.csv",
+                 srdf_file = out / "proposed.srdf";
+  for (const std::string& file : {options.robot, options.scene, options.srdf, options.path}) {
+    if (!file.empty()) base::check_kind(file, "a file of the robot");
   }
-  const scene::Scene scene = scene_of(options);
-  std::vector<files::NamedFile> outputs;
-  for (const std::string& out : options.outs) outputs.push_back({"--out", out});
-  files::check_outputs(scene.inputs(), outputs);
+  const bool is_new = fs::create_directories(out);
+  files::write_text(scene_file, scene_text(options));
+  scene::Scene scene;
+  try {
+    scene = scene::load_scene(scene_file);
+  } catch (const base::InputError&) {  // nothing is left behind
+    fs::remove(scene_file);
+    if (is_new) fs::remove(out);
+    throw;
+  }
   const scene::Robot robot = scene::read_robot(options.robot, options.srdf);
   const report::LinkContacts found = report::link_contacts(scene, robot, frame_seconds);
   const std::size_t all = found.configurations;
@@ -191,14 +188,12 @@ int look_at(const RobotOptions& options) {
     fmt::print("Each of them touches in less than {:.2g} % of such configurations, at 95 %\n",
                100 * trade::greatest_share(0, static_cast<std::int64_t>(all)));
   }
-  for (const std::string& out : options.outs) {
-    if (fs::path(out).extension() == ".csv") {
-      write_csv(out, found);
-    } else {
-      files::write_text(out, proposal(robot, found));
-    }
-    fmt::print("{}\n", out);
-  }
+  write_csv(pairs_file, found);
+  files::write_text(srdf_file, proposal(robot, found));
+  fmt::print(
+      "\nAll pairs: {}\nAn SRDF file that leaves out what always or never touched: {}\n"
+      "Which algorithm is fastest on it, and who is wrong: touchstone run --scene {} --frames 64\n",
+      pairs_file.string(), srdf_file.string(), scene_file.string());
   return exit_done;
 }
 
@@ -222,14 +217,12 @@ void add_robot(Arguments command) {
   command.text("--meshes", options->meshes, "What meshes are")
       .among({uses.begin(), uses.end()})
       .show_default();
-  command
-      .texts("--out", options->outs,
-             "Files to write: .csv, a row a pair of links; .srdf, what it may disable")
-      .separated_by_commas();
+  command.text("--out", options->out,
+               "Folder for pairs.csv, proposed.srdf and scene.toml (default: "
+               "results/local/robot-NAME in the project)");
   command.footer(
-      "Convex bodies are asked by `certified`, meshes by `fused`. To time algorithms on a robot, "
-      "write a scene that "
-      "imports it (datasets/README.md) for `run --scene`.");
+      "Convex bodies are asked by `certified`, meshes by `fused`. scene.toml is for `run --scene`, "
+      "`advise` and `report --scene`.");
   command.job([options] { return look_at(*options); });
 }
 

@@ -63,6 +63,7 @@ void read_filter(files::TomlTable& table, bool fixed_pairs, Scene& scene) {
     ignore_pairs(bodies[0], bodies[1], scene.filter);
   }
   sort_ignored(scene.filter);
+  scene.filter.rests.clear();
   if (!table.boolean("fixed_pairs", fixed_pairs)) ignore_fixed_pairs(scene);
 }
 

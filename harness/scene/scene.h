@@ -152,8 +152,8 @@ struct SceneOverrides {
 // bodies).
 Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
 
-// Adds the bodies of a scene behind those of another, at rest or with their velocities; their tracks, pairs and filter are
-// lost.
+// Adds the bodies of a scene behind those of another, with their tracks and ignored pairs. Where one has fewer frames
+// its bodies stay at their last poses. The motion is that of `to`.
 void append(Scene from, Scene& to);
 
 // Returns 16 hexadecimal digits that depend on all inputs of an algorithm: shapes, every frame's

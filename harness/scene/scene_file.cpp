@@ -38,6 +38,24 @@ void append(Scene from, Scene& to) {
     std::ranges::move(from.names, std::back_inserter(to.names));
   }
   std::ranges::move(from.files, std::back_inserter(to.files));
+  for (const IndexPair& pair : from.filter.ignored) {
+    to.filter.ignored.push_back({pair.a + bodies, pair.b + bodies});
+  }
+  if (from.tracks.bodies.empty()) return;
+  const std::size_t frames = std::max(to.tracks.frames(), from.tracks.frames());
+  Tracks both;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    for (const Tracks* one : {&to.tracks, &from.tracks}) {
+      if (one->bodies.empty()) continue;
+      const std::size_t width = one->bodies.size();
+      const auto first = one->poses.begin() +
+                         static_cast<std::ptrdiff_t>(width * std::min(frame, one->frames() - 1));
+      both.poses.insert(both.poses.end(), first, first + static_cast<std::ptrdiff_t>(width));
+    }
+  }
+  both.bodies = std::move(to.tracks.bodies);
+  for (const std::uint32_t body : from.tracks.bodies) both.bodies.push_back(body + bodies);
+  to.tracks = std::move(both);
 }
 
 namespace {
@@ -186,22 +204,31 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   Scene scene;
   int frames = 1;
   bool is_robot = false;
-  if (imports) {
+  for (const std::string& name : table.texts("import", {})) {
     const std::filesystem::path imported =
-        shapes.existing_file(table, "import", "a .toml, .json, .urdf or .aabbs file");
-    is_robot = imported.extension() == robot_ending;
-    if (is_robot) {
-      scene = import_robot(table, imported, uses.own.value_or(MeshUse::surface), overrides);
+        shapes.existing_file(table, "import", name, "a .toml, .json, .urdf or .aabbs file");
+    Scene one;
+    if (imported.extension() == robot_ending) {
+      if (std::exchange(is_robot, true)) {
+        table.fail("import", "a second robot; expected one, whose keys are those of the file");
+      }
+      one = import_robot(table, imported, uses.own.value_or(MeshUse::surface), overrides);
     } else if (imported.extension() == ".toml") {
       expect_listed(imported);
       std::vector<std::int64_t> theirs;
-      scene = read_toml(imported, {}, theirs, uses.instead ? uses.instead : uses.own);
+      one = read_toml(imported, {}, theirs, uses.instead ? uses.instead : uses.own);
     } else {
-      scene = import_scene(imported, uses);
+      one = import_scene(imported, uses);
     }
-    frames = scene.frames;
-    if (!is_robot) scene.files.push_back(imported);
-    if (!scene.recording.empty() && (lists || generates)) {
+    frames = std::max(frames, one.frames);
+    if (imported.extension() != robot_ending) one.files.push_back(imported);
+    if (scene.bodies.empty() && scene.recording.empty()) {
+      scene = std::move(one);
+    } else {
+      if (!one.recording.empty()) scene.recording = std::move(one.recording);
+      append(std::move(one), scene);
+    }
+    if (!scene.recording.empty() && (!scene.bodies.empty() || lists || generates)) {
       table.fail("import", "a recording of boxes beside bodies; expected it alone");
     }
   }
@@ -221,7 +248,9 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
     }
   } else {
     if (!table.boolean("moving", true)) {
-      for (Body& body : scene.bodies) body.moving = false;
+      for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        if (!std::ranges::binary_search(scene.tracks.bodies, i)) scene.bodies[i].moving = false;
+      }
     }
     refuse_for_listed(file, overrides);
     if (scene.recording.empty()) {
@@ -241,7 +270,9 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
     read_pose_log(scene.files.back(), scene);
     frames = scene.frames;
   }
-  if (scene.recording.empty() && scene.pairs.empty()) read_filter(table, !is_robot, scene);
+  if (scene.recording.empty() && scene.pairs.empty()) {
+    read_filter(table, !is_robot && scene.filter.rests.empty(), scene);
+  }
   for (std::filesystem::path& mesh : shapes.files()) scene.files.push_back(std::move(mesh));
   scene.name = table.text("name", path.stem().string());
   const std::int64_t asked = table.integer("frames", 1, most_frames, frames);

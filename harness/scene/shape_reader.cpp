@@ -87,7 +87,13 @@ std::span<const std::string_view> shape_names() {
 
 std::filesystem::path ShapeReader::existing_file(files::TomlTable& table, std::string_view key,
                                                  std::string_view expected) const {
-  const std::filesystem::path file = folder_ / table.text(key);
+  return existing_file(table, key, table.text(key), expected);
+}
+
+std::filesystem::path ShapeReader::existing_file(files::TomlTable& table, std::string_view key,
+                                                 const std::string& name,
+                                                 std::string_view expected) const {
+  const std::filesystem::path file = folder_ / name;
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     table.fail(key, "no file " + file.string() + "; expected " + std::string(expected) +

@@ -65,7 +65,9 @@ class ShapeReader {
   // The mesh files that were read.
   std::vector<std::filesystem::path> files() const;
 
-  // The file named by the key; it must exist.
+  // The file named by the key, or by one of its texts; it must exist.
+  std::filesystem::path existing_file(files::TomlTable& table, std::string_view key,
+                                      const std::string& name, std::string_view expected) const;
   std::filesystem::path existing_file(files::TomlTable& table, std::string_view key,
                                       std::string_view expected) const;
 

@@ -45,7 +45,7 @@ class RobotCommand : public testing::Test {
 
 // The links hang on one that has no shape, which joins them all: another link between keeps them apart.
 TEST_F(RobotCommand, LeavesOutLinksThatShareAnEmptyLink) {
-  const Ran ran = run_program("robot " + path("rail.urdf") + " --random 20");
+  const Ran ran = run_program("robot " + path("rail.urdf") + " --random 20 --out " + path("out"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("rail: 5 links, 4 shapes, 4 joints with a value; 0 bodies"));
   EXPECT_THAT(ran.text, HasSubstr("Free: 20 of 20"));
@@ -67,9 +67,8 @@ TEST_F(RobotCommand, CountsContactsAndWhatSrdfHides) {
       "[[body]]\nname = \"plate\"\nshape = {type = \"box\", half_extents = [1, 1, 0.01]}\n"
       "translation = [0, 0, 2.4]\n[[body]]\nshape = {type = \"halfspace\", normal = [0, 0, 1], "
       "offset = -9}\n");
-  const Ran ran =
-      run_program("robot " + path("rail.urdf") + " --random 400 --scene " + path("world.toml") +
-                  " --out " + path("pairs.csv") + "," + path("proposal.srdf"));
+  const Ran ran = run_program("robot " + path("rail.urdf") + " --random 400 --scene " +
+                              path("world.toml") + " --out " + path("out"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("2 bodies around it"));
   EXPECT_THAT(ran.text, HasSubstr("Left out: what SRDF says of \"camera\""));
@@ -78,14 +77,19 @@ TEST_F(RobotCommand, CountsContactsAndWhatSrdfHides) {
   EXPECT_THAT(ran.text, ContainsRegex("some configurations:\nlinks +touch in *\n-+\nhigh, tip "
                                       "+[1-9][^\n]*\nhigh, plate +[1-9]"));
   EXPECT_THAT(ran.text, HasSubstr("Each of them touches in less than 0.75 %"));
-  EXPECT_THAT(folder_.read("pairs.csv"), ContainsRegex("low,high,yes,400,0,0\n"));
-  EXPECT_THAT(folder_.read("pairs.csv"), ContainsRegex("high,tip,no,400,[1-9]"));
-  const std::string proposal = folder_.read("proposal.srdf");
+  EXPECT_THAT(folder_.read("out/pairs.csv"), ContainsRegex("low,high,yes,400,0,0\n"));
+  EXPECT_THAT(folder_.read("out/pairs.csv"), ContainsRegex("high,tip,no,400,[1-9]"));
+  const std::string proposal = folder_.read("out/proposed.srdf");
   EXPECT_THAT(proposal, HasSubstr("link1=\"low\" link2=\"high\" reason=\"Never\""));
   EXPECT_THAT(proposal, HasSubstr("link1=\"rail\" link2=\"low\" reason=\"Adjacent\""));
   EXPECT_THAT(proposal, Not(HasSubstr("plate")));
   EXPECT_THAT(proposal, Not(HasSubstr("link1=\"low\" link2=\"middle\"")));
-  const scene::Robot again = scene::read_robot(path("rail.urdf"), path("proposal.srdf"));
+  // What `run`, `advise` and `report` take.
+  const scene::Scene scene = scene::load_scene(path("out/scene.toml"));
+  EXPECT_EQ(scene.frames, 400);
+  EXPECT_EQ(scene.bodies.size(), 7U);
+  EXPECT_FALSE(scene.bodies[5].moving);
+  const scene::Robot again = scene::read_robot(path("rail.urdf"), path("out/proposed.srdf"));
   EXPECT_FALSE(again.disabled.empty());
 }
 
@@ -96,8 +100,8 @@ TEST_F(RobotCommand, TakesRecordedConfigurations) {
                "<link name=\"rail\"><collision><origin xyz=\"5 0 0\"/><geometry><sphere "
                "radius=\"0.1\"/></geometry></collision></link>");
   folder_.write("rail.urdf", urdf);
-  const Ran ran =
-      run_program("robot " + path("rail.urdf") + " --configurations " + path("path.csv"));
+  const Ran ran = run_program("robot " + path("rail.urdf") + " --configurations " +
+                              path("path.csv") + " --out " + path("out"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("Free: 0 of 2"));
   EXPECT_THAT(ran.text,
@@ -108,14 +112,14 @@ TEST_F(RobotCommand, TakesRecordedConfigurations) {
 
 TEST_F(RobotCommand, RefusesWhatItCannotRead) {
   expect_refusal("robot " + path("none.urdf"), "none.urdf", folder_);
-  expect_refusal("robot " + path("rail.urdf") + " --out " + path("x.txt"),
-                 "expected a name ending in .csv or .srdf", folder_);
+  folder_.write("bad.urdf", "<robot><link/></robot>");
+  expect_refusal("robot " + path("bad.urdf") + " --out " + path("out"), "no attribute name",
+                 folder_);
   expect_refusal("robot " + path("rail.urdf") + " --meshes wire", "wire", folder_);
   expect_refusal("robot " + path("rail.urdf") + " --scene " + path("none.toml"), "none.toml",
                  folder_);
-  expect_refusal(
-      "robot " + path("rail.urdf") + " --out " + path("rail.srdf") + " --srdf " + path("rail.srdf"),
-      "rail.srdf", folder_);
+  expect_refusal("robot " + path("rail.urdf") + " --srdf " + path("none.srdf"), "none.srdf",
+                 folder_);
 }
 
 }  // namespace

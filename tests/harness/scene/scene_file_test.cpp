@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(
               "stack, ground, terrain, chain, "
               "brownian, free_fall, rotating_gravity"},
         Fault{"generator = 3\n", 1, "found 3; expected one of"},
-        Fault{"import = \"x.json\"\n", 1, "no file"}, Fault{"import = 1\n", 1, "a text"}));
+        Fault{"import = \"x.json\"\n", 1, "no file"}, Fault{"import = 1\n", 1, "texts"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Generators, SceneFault,
