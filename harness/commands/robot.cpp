@@ -35,10 +35,29 @@ struct RobotOptions {
   std::string robot, scene, srdf, path, out, meshes = "surface";
   int random = 1000;
   std::int64_t seed = 1;
+  std::vector<std::string> packages;
+  bool overwrite = false;
 };
 
 bool is_yaml(const fs::path& file) {
   return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
+// NAME=FOLDER, or a folder in which packages are.
+scene::Packages packages_of(const RobotOptions& options) {
+  scene::Packages packages;
+  for (const std::string& word : options.packages) {
+    const std::size_t at = word.find('=');
+    if (at == std::string::npos) {
+      packages.folders.push_back(fs::absolute(word));
+    } else {
+      packages.named[word.substr(0, at)] = fs::absolute(word.substr(at + 1));
+    }
+  }
+  if (!packages.named.empty() && !packages.folders.empty()) {
+    throw base::InputError("--packages: expected NAME=FOLDER throughout, or folders of packages");
+  }
+  return packages;
 }
 
 // The text of a scene of the robot and what is around it, for `run` and others.
@@ -53,6 +72,16 @@ std::string scene_text(const RobotOptions& options) {
   }
   keys.insert("import", std::move(imports));
   if (!options.srdf.empty()) keys.insert("srdf", absolute(options.srdf));
+  const scene::Packages packages = packages_of(options);
+  if (!packages.named.empty()) {
+    toml::table named;
+    for (const auto& [name, folder] : packages.named) named.insert(name, folder.string());
+    keys.insert("packages", std::move(named));
+  } else if (!packages.folders.empty()) {
+    toml::array folders;
+    for (const fs::path& folder : packages.folders) folders.push_back(folder.string());
+    keys.insert("packages", std::move(folders));
+  }
   keys.insert("meshes", options.meshes);
   keys.insert("moving", false);
   if (!options.path.empty()) {
@@ -105,7 +134,7 @@ std::string in_xml(const std::string& text) {
       case '&': escaped += "&amp;"; break;
       case '<': escaped += "&lt;"; break;
       case '"': escaped += "&quot;"; break;
-      default: escaped += c;
+      default: escaped += base::has_control({&c, 1}) ? '?' : c;
     }
   }
   return escaped;
@@ -127,7 +156,7 @@ std::string proposal(const scene::Robot& robot, const report::LinkContacts& foun
     if (have_shapes) add(robot.links[a].name, robot.links[b].name, "Adjacent");
   }
   for (const report::LinkPair& pair : found.pairs) {
-    if (!robot.find_link(pair.first) || !robot.find_link(pair.second) || pair.unknown > 0) continue;
+    if (!pair.is_of_links || pair.unknown > 0) continue;
     if (pair.touching == found.configurations) add(pair.first, pair.second, "Always");
     if (pair.touching == 0) add(pair.first, pair.second, "Never");
   }
@@ -142,24 +171,32 @@ int look_at(const RobotOptions& options) {
   for (const std::string& file : {options.robot, options.scene, options.srdf, options.path}) {
     if (!file.empty()) base::check_kind(file, "a file of the robot");
   }
-  const bool is_new = fs::create_directories(out);
-  files::write_text(scene_file, scene_text(options));
-  scene::Scene scene;
-  try {
-    scene = scene::load_scene(scene_file);
-  } catch (const base::InputError&) {  // nothing is left behind
-    fs::remove(scene_file);
-    if (is_new) fs::remove(out);
-    throw;
+  const std::string text = scene_text(options);
+  const scene::Scene scene = scene::scene_of_text(text, scene_file);
+  std::vector<files::NamedFile> outputs;
+  for (const fs::path& file : {scene_file, pairs_file, srdf_file}) {
+    outputs.push_back({"--out", file});
+    std::error_code error;
+    if (!options.overwrite && fs::exists(file, error)) {
+      throw base::InputError(file.string() + " is there; expected another --out, or --overwrite");
+    }
   }
-  const scene::Robot robot = scene::read_robot(options.robot, options.srdf);
+  const scene::Robot robot = scene::read_robot(options.robot, options.srdf, packages_of(options));
+  std::size_t shapes = 0;
+  for (const scene::Link& link : robot.links) shapes += link.shapes.size();
+  if (scene.tracks.bodies.size() != shapes) {
+    throw base::InputError(
+        options.scene, 0,
+        "has bodies that follow poses of their own; expected bodies that stand still");
+  }
+  fs::create_directories(out);
+  files::check_outputs(scene.inputs(), outputs);
   const report::LinkContacts found = report::link_contacts(scene, robot, frame_seconds);
   const std::size_t all = found.configurations;
 
   const auto moving = std::ranges::count_if(robot.joints, &scene::Joint::is_free);
   fmt::print("{}: {} links, {} shapes, {} joints with a value; {} bodies around it\n", robot.name,
-             robot.links.size(), scene.tracks.bodies.size(), moving,
-             scene.bodies.size() - scene.tracks.bodies.size());
+             robot.links.size(), shapes, moving, scene.bodies.size() - shapes);
   for (const std::string& link : robot.unknown_links) {
     fmt::print("Left out: what SRDF says of \"{}\", which the robot does not have\n",
                base::printable(link));
@@ -169,9 +206,11 @@ int look_at(const RobotOptions& options) {
              found.unknown > 0 ? fmt::format("; not known of {}", found.unknown) : "");
 
   std::vector<report::LinkPair> always, some, hidden;
-  std::size_t never = 0, never_disabled = 0;
+  std::size_t never = 0, never_disabled = 0, unknown = 0;
   for (const report::LinkPair& pair : found.pairs) {
-    if (pair.touching == 0) {
+    if (pair.touching == 0 && pair.unknown > 0) {
+      ++unknown;
+    } else if (pair.touching == 0) {
       ++(pair.is_disabled ? never_disabled : never);
     } else if (pair.is_disabled) {
       hidden.push_back(pair);
@@ -184,16 +223,18 @@ int look_at(const RobotOptions& options) {
   print_pairs("In contact in some configurations:", some, all);
   fmt::print("\nNever seen in contact: {} pairs that are asked, {} that SRDF disables\n", never,
              never_disabled);
+  if (unknown > 0) fmt::print("Not known in some configuration: {} pairs\n", unknown);
   if (options.path.empty() && never + never_disabled > 0) {
     fmt::print("Each of them touches in less than {:.2g} % of such configurations, at 95 %\n",
                100 * trade::greatest_share(0, static_cast<std::int64_t>(all)));
   }
+  files::write_text(scene_file, text);
   write_csv(pairs_file, found);
   files::write_text(srdf_file, proposal(robot, found));
   fmt::print(
       "\nAll pairs: {}\nAn SRDF file that leaves out what always or never touched: {}\n"
-      "Which algorithm is fastest on it, and who is wrong: touchstone run --scene {} --frames 64\n",
-      pairs_file.string(), srdf_file.string(), scene_file.string());
+      "Which algorithm is fastest on it, and who is wrong: touchstone run --scene {} --frames {}\n",
+      pairs_file.string(), srdf_file.string(), scene_file.string(), std::min<std::size_t>(64, all));
   return exit_done;
 }
 
@@ -212,7 +253,15 @@ void add_robot(Arguments command) {
       .within(1, 1'000'000)
       .show_default()
       .excludes(path);
-  command.number("--seed", options->seed, "Of the random ones").within(0, INT64_MAX).show_default();
+  command.number("--seed", options->seed, "Of the random ones")
+      .within(0, INT64_MAX)
+      .show_default()
+      .excludes(path);
+  command
+      .texts("--packages", options->packages,
+             "Where package:// lies: NAME=FOLDER, or folders in which packages are")
+      .separated_by_commas();
+  command.flag("--overwrite", options->overwrite, "Replaces the files of an earlier call");
   const auto& uses = geometry::mesh_use_names;
   command.text("--meshes", options->meshes, "What meshes are")
       .among({uses.begin(), uses.end()})

@@ -1,6 +1,8 @@
 // Counts the contacts of links.
 #include "harness/report/link_contacts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -16,21 +18,30 @@ namespace {
 
 constexpr std::uint8_t verdict_touching = 1, verdict_overlapping = 2;
 
-using Names = std::pair<std::string, std::string>;
+// Whose bodies are told apart: the links by their numbers, and behind them everything else by its name.
+struct Owners {
+  std::vector<std::size_t> of;  // by body
+  std::vector<std::string> names;
+};
 
-Names names_of(const scene::Scene& scene, const IndexPair& pair) {
-  const auto [a, b] = std::minmax(pair.a, pair.b);
-  return {scene.names[a], scene.names[b]};
-}
-
-std::set<Names> disabled_names(const scene::Robot& robot) {
-  std::set<Names> names;
-  for (const auto& [a, b] : robot.disabled) {
-    names.insert({robot.links[a].name, robot.links[b].name});
-    names.insert({robot.links[b].name, robot.links[a].name});
+Owners owners_of(const scene::Scene& scene, const scene::Robot& robot) {
+  Owners owners;
+  for (std::size_t link = 0; link < robot.links.size(); ++link) {
+    owners.names.push_back(robot.links[link].name);
+    owners.of.insert(owners.of.end(), robot.links[link].shapes.size(), link);
   }
-  return names;
+  std::map<std::string, std::size_t> others;
+  for (std::size_t body = owners.of.size(); body < scene.bodies.size(); ++body) {
+    const std::string name =
+        scene.names[body].empty() ? fmt::format("body {}", body) : scene.names[body];
+    const auto [at, is_new] = others.try_emplace(name, owners.names.size());
+    if (is_new) owners.names.push_back(name);
+    owners.of.push_back(at->second);
+  }
+  return owners;
 }
+
+using Pair = std::pair<std::size_t, std::size_t>;
 
 measure::NarrowChoice convex_choice() {
   return {.entry = registry::find<NarrowPhaseEntry>("certified"), .settings = {}};
@@ -46,24 +57,31 @@ measure::NarrowChoice concave_choice() {
 
 LinkContacts link_contacts(const scene::Scene& scene, const scene::Robot& robot,
                            double time_limit) {
-  const std::set<Names> disabled = disabled_names(robot);
+  const Owners owners = owners_of(scene, robot);
+  const auto owners_pair = [&](const IndexPair& pair) -> Pair {
+    return std::minmax(owners.of[pair.a], owners.of[pair.b]);
+  };
+  std::set<Pair> disabled;
+  for (const auto& [a, b] : robot.disabled) disabled.insert({a, b});
   const auto is_disabled = [&](const IndexPair& pair) {
-    return disabled.contains(names_of(scene, pair));
+    return disabled.contains(owners_pair(pair));
   };
   measure::BlockInput input(scene, scene::BoxKind::tight, true);
   std::erase_if(input.filter.ignored, is_disabled);
 
   LinkContacts found;
   found.configurations = input.frames.size();
-  std::map<Names, std::size_t> place;
+  std::map<Pair, std::size_t> place;
   for (std::uint32_t a = 0; a < scene.bodies.size(); ++a) {
     for (std::uint32_t b = a + 1; b < scene.bodies.size(); ++b) {
       if (!input.filter.asks({a, b})) continue;
-      const Names names = names_of(scene, {a, b});
-      const auto [at, is_new] = place.try_emplace(names, found.pairs.size());
+      const Pair pair = owners_pair({a, b});
+      const auto [at, is_new] = place.try_emplace(pair, found.pairs.size());
       if (!is_new) continue;
-      found.pairs.push_back(
-          {.first = names.first, .second = names.second, .is_disabled = is_disabled({a, b})});
+      found.pairs.push_back({.first = owners.names[pair.first],
+                             .second = owners.names[pair.second],
+                             .is_of_links = pair.second < robot.links.size(),
+                             .is_disabled = disabled.contains(pair)});
     }
   }
 
@@ -78,7 +96,7 @@ LinkContacts link_contacts(const scene::Scene& scene, const scene::Robot& robot,
       const IndexPair pair = {bodies[2 * i], bodies[2 * i + 1]};
       const bool is_concave = input.is_concave(pair.a) || input.is_concave(pair.b);
       const std::uint8_t verdict = (is_concave ? concave : convex)[pairs.start(frame) + i];
-      const std::size_t at = place.at(names_of(scene, pair));
+      const std::size_t at = place.at(owners_pair(pair));
       if (verdict == verdict_touching || verdict == verdict_overlapping) {
         touching.insert(at);
       } else if (verdict > verdict_overlapping) {

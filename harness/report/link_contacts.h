@@ -11,7 +11,9 @@
 namespace touchstone::report {
 
 struct LinkPair {
-  std::string first, second;              // links, or a link and an obstacle
+  std::string first,
+      second;  // a link, and a link or an obstacle; a body without a name is "body N"
+  bool is_of_links = false;
   std::size_t touching = 0, unknown = 0;  // configurations
   bool is_disabled = false;               // by SRDF
 };
@@ -24,7 +26,8 @@ struct LinkContacts {
 };
 
 // Asks `certified` about convex bodies and `fused` about others, in a child process: a frame that crashes or takes longer
-// than the limit (seconds) is unknown. `scene` is one of import_robot, with or without further bodies, of the same robot.
+// than the limit (seconds) is unknown. The first bodies of `scene` are the shapes of this robot's links, as import_robot
+// makes them.
 LinkContacts link_contacts(const scene::Scene& scene, const scene::Robot& robot, double time_limit);
 
 }  // namespace touchstone::report

@@ -21,19 +21,20 @@ void PairFilter::apply(std::vector<IndexPair>& pairs) const {
   std::erase_if(pairs, [&](const IndexPair& pair) { return !asks(pair); });
 }
 
-std::vector<std::uint32_t> bodies_named(const Scene& scene, std::string_view name) {
-  std::vector<std::uint32_t> bodies;
+std::map<std::string, std::vector<std::uint32_t>> bodies_by_name(const Scene& scene) {
+  std::map<std::string, std::vector<std::uint32_t>> named;
   for (std::uint32_t i = 0; i < scene.names.size(); ++i) {
-    if (scene.names[i] == name) bodies.push_back(i);
+    if (!scene.names[i].empty()) named[scene.names[i]].push_back(i);
   }
-  return bodies;
+  return named;
 }
 
 void ignore_pairs(std::span<const std::uint32_t> some, std::span<const std::uint32_t> others,
                   PairFilter& filter) {
+  const bool is_one = std::ranges::equal(some, others);
   for (const std::uint32_t a : some) {
     for (const std::uint32_t b : others) {
-      if (a != b) filter.ignored.push_back({std::min(a, b), std::max(a, b)});
+      if (a != b && !(is_one && a > b)) filter.ignored.push_back({std::min(a, b), std::max(a, b)});
     }
   }
 }
@@ -45,22 +46,23 @@ void sort_ignored(PairFilter& filter) {
 }
 
 void read_filter(files::TomlTable& table, bool fixed_pairs, Scene& scene) {
+  const std::map<std::string, std::vector<std::uint32_t>> named = bodies_by_name(scene);
   for (const toml::node* node : table.elements("ignore")) {
     const toml::array* pair = node->as_array();
     if (pair == nullptr || pair->size() != 2 || !(*pair)[0].is_string() ||
         !(*pair)[1].is_string()) {
       table.fail("ignore", "expected pairs of names, such as [[\"arm\", \"table\"]]");
     }
-    std::vector<std::uint32_t> bodies[2];
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::string name = *(*pair)[i].value<std::string>();
-      bodies[i] = bodies_named(scene, name);
-      if (bodies[i].empty()) {
+    const auto find = [&](const toml::node& end) {
+      const std::string name = *end.value<std::string>();
+      const auto found = named.find(name);
+      if (found == named.end()) {
         table.fail("ignore", fmt::format("no body has the name \"{}\"; expected one that has",
                                          base::shortened(name)));
       }
-    }
-    ignore_pairs(bodies[0], bodies[1], scene.filter);
+      return found;
+    };
+    ignore_pairs(find((*pair)[0])->second, find((*pair)[1])->second, scene.filter);
   }
   sort_ignored(scene.filter);
   scene.filter.rests.clear();

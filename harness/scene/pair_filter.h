@@ -1,9 +1,9 @@
 // Which pairs of a scene's bodies are left out, by name.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "harness/files/toml_table.h"
@@ -11,8 +11,8 @@
 
 namespace touchstone::scene {
 
-// The bodies of a name, ascending.
-std::vector<std::uint32_t> bodies_named(const Scene& scene, std::string_view name);
+// The bodies of each name, ascending.
+std::map<std::string, std::vector<std::uint32_t>> bodies_by_name(const Scene& scene);
 // Adds all pairs of a body of one list with one of the other. Afterwards the caller sorts the filter's pairs.
 void ignore_pairs(std::span<const std::uint32_t> some, std::span<const std::uint32_t> others,
                   PairFilter& filter);

@@ -75,13 +75,13 @@ class PoseLogReader {
 
   std::uint32_t body_of(const files::CsvReader::Row& row) const {
     const std::string_view text = row.text(log_body);
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     const auto named = named_.find(text);
-    if (named != named_.end()) {
+    if (error != std::errc() && named != named_.end()) {
       if (!named->second) row.fail("several bodies have this name; expected the number of one");
       return *named->second;
     }
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size() ||
         number >= scene_.bodies.size()) {
       row.fail(fmt::format("body \"{}\"; expected a name, or a number below {}",
@@ -175,7 +175,7 @@ int write_pose_log(const Scene& scene, const std::filesystem::path& file) {
   for (int frame = 0; frame < scene.frames; ++frame) {
     if (frame > 0) kinematics.next();
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
-      if (!kinematics.is_present(body)) continue;
+      if (!kinematics.is_present(body) || !scene.bodies[body].moving) continue;
       const Pose& pose = kinematics.poses()[body];
       csv.field(frame).field(body);
       for (int i = 0; i < 3; ++i) {

@@ -13,7 +13,7 @@ namespace touchstone::scene {
 // file and line.
 void read_pose_log(const std::filesystem::path& file, Scene& scene);
 
-// Writes such a file, as matrices, of all frames of the scene and the bodies that are present. Returns the number of frames.
+// Writes such a file, as matrices, of all frames of the scene and the bodies that may move. Returns the number of frames.
 int write_pose_log(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace touchstone::scene

@@ -152,6 +152,9 @@ struct SceneOverrides {
 // bodies).
 Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
 
+// The scene of a TOML file with this text, before it is written. Throws InputError as above, and toml::parse_error.
+Scene scene_of_text(const std::string& text, const std::filesystem::path& file);
+
 // Adds the bodies of a scene behind those of another, with their tracks and ignored pairs. Where one has fewer frames
 // its bodies stay at their last poses. The motion is that of `to`.
 void append(Scene from, Scene& to);

@@ -97,13 +97,14 @@ void read_motion(files::TomlTable& table, double side, Motion& motion) {
 }
 
 // Reads additions to listed and imported scenes: walls, and the parameters of brownian motion.
-void read_motion_of_listed(files::TomlTable& table, const SceneOverrides& overrides, Scene& scene) {
+void read_motion_of_listed(files::TomlTable& table, const SceneOverrides& overrides, bool uses_seed,
+                           Scene& scene) {
   Motion& motion = scene.motion;
   read_motion(table, 0, motion);
   if (motion.kind == MotionKind::brownian) {
     motion.speed = table.number("speed", files::not_negative, 1.0);
     motion.seed = read_seed(table, overrides);
-  } else {
+  } else if (!uses_seed) {
     refuse_seed(table.file(), overrides.seed);
   }
   if (!table.has("wall_min") && !table.has("wall_max")) return;
@@ -177,19 +178,43 @@ void set_frames(const std::string& file, std::int64_t line, std::int64_t frames,
   }
   scene.frames = static_cast<int>(frames);
   if (recorded > 0) scene.recording.resize(static_cast<std::size_t>(frames));
+  if (frames < tracked) {
+    scene.tracks.poses.resize(scene.tracks.bodies.size() * static_cast<std::size_t>(frames));
+  }
 }
 
-// Scenes that are imported import none themselves.
-void expect_listed(const std::filesystem::path& file) {
-  if (files::has_key(file, "body")) return;
-  throw base::InputError(file.string(), 0, "lists no bodies, and is imported; expected [[body]]");
+// Bodies of a scene that is imported have others behind them, which come and go with none.
+void expect_stay(const std::filesystem::path& file, const Scene& scene) {
+  if (scene.motion.churn == 0 && scene.motion.teleports == 0 && scene.pairs.empty()) return;
+  throw base::InputError(
+      file.string(), 0,
+      "is imported, and its bodies come and go, jump or are pairs; expected bodies that stay");
 }
+
+constexpr int deepest_import = 8;
+
+Scene read_toml(const toml::table& content, const std::filesystem::path& path,
+                const SceneOverrides& overrides, std::vector<std::int64_t>& lines,
+                std::optional<MeshUse> instead = {}, int depth = 0);
 
 // `lines` receives the lines of listed bodies. `instead`, of a file that imports this one, replaces
 // what meshes are.
 Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrides,
-                std::vector<std::int64_t>& lines, std::optional<MeshUse> instead = {}) {
-  const toml::table content = files::parse_toml(path);
+                std::vector<std::int64_t>& lines, std::optional<MeshUse> instead = {},
+                int depth = 0) {
+  if (depth > deepest_import) {
+    throw base::InputError(
+        path.string(), 0,
+        fmt::format("imported by {} scenes in a row, perhaps by itself; expected "
+                    "at most {}",
+                    depth, deepest_import));
+  }
+  return read_toml(files::parse_toml(path), path, overrides, lines, instead, depth);
+}
+
+Scene read_toml(const toml::table& content, const std::filesystem::path& path,
+                const SceneOverrides& overrides, std::vector<std::int64_t>& lines,
+                std::optional<MeshUse> instead, int depth) {
   const std::string file = path.string();
   files::TomlTable table(content, file, "");
   const MeshUses uses = read_mesh_uses(table, instead);
@@ -203,7 +228,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
   // Generated bodies come last, since those that arrive later are the last ones.
   Scene scene;
   int frames = 1;
-  bool is_robot = false;
+  bool is_robot = false, robot_draws = false, asks_fixed = true;
   for (const std::string& name : table.texts("import", {})) {
     const std::filesystem::path imported =
         shapes.existing_file(table, "import", name, "a .toml, .json, .urdf or .aabbs file");
@@ -212,15 +237,17 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
       if (std::exchange(is_robot, true)) {
         table.fail("import", "a second robot; expected one, whose keys are those of the file");
       }
-      one = import_robot(table, imported, uses.own.value_or(MeshUse::surface), overrides);
+      const MeshUse use = uses.instead.value_or(uses.own.value_or(MeshUse::surface));
+      one = import_robot(table, imported, use, overrides, robot_draws);
     } else if (imported.extension() == ".toml") {
-      expect_listed(imported);
       std::vector<std::int64_t> theirs;
-      one = read_toml(imported, {}, theirs, uses.instead ? uses.instead : uses.own);
+      one = read_toml(imported, {}, theirs, uses.instead ? uses.instead : uses.own, depth + 1);
+      expect_stay(imported, one);
     } else {
       one = import_scene(imported, uses);
     }
     frames = std::max(frames, one.frames);
+    asks_fixed = asks_fixed && one.filter.rests.empty();
     if (imported.extension() != robot_ending) one.files.push_back(imported);
     if (scene.bodies.empty() && scene.recording.empty()) {
       scene = std::move(one);
@@ -240,6 +267,13 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
       table.fail("generator", "found \"pairs\" beside other bodies; expected it alone");
     }
     if (!imports) frames = made.pairs.empty() ? generated_frames : 1;
+    if (has_others) {
+      if (scene.motion.kind != MotionKind::inertial) {
+        table.fail("generator",
+                   "given beside an import that has a motion of its own; expected one");
+      }
+      if (!table.contains("time_step") && imports) made.motion.time_step = scene.motion.time_step;
+    }
     scene.motion = made.motion;
     if (has_others) {
       append(std::move(made), scene);
@@ -254,10 +288,7 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
     }
     refuse_for_listed(file, overrides);
     if (scene.recording.empty()) {
-      // The seed of a robot's configurations is that of the scene.
-      SceneOverrides of_motion = overrides;
-      if (is_robot) of_motion.seed = -1;
-      read_motion_of_listed(table, of_motion, scene);
+      read_motion_of_listed(table, overrides, robot_draws, scene);
     } else {
       refuse_seed(file, overrides.seed);
     }
@@ -271,8 +302,9 @@ Scene read_toml(const std::filesystem::path& path, const SceneOverrides& overrid
     frames = scene.frames;
   }
   if (scene.recording.empty() && scene.pairs.empty()) {
-    read_filter(table, !is_robot && scene.filter.rests.empty(), scene);
+    read_filter(table, !is_robot && asks_fixed, scene);
   }
+  if (!scene.tracks.bodies.empty()) frames = static_cast<int>(scene.tracks.frames());
   for (std::filesystem::path& mesh : shapes.files()) scene.files.push_back(std::move(mesh));
   scene.name = table.text("name", path.stem().string());
   const std::int64_t asked = table.integer("frames", 1, most_frames, frames);
@@ -348,6 +380,13 @@ void check_walls(const std::string& file, std::span<const std::int64_t> lines, c
   }
 }
 
+void expect_playable(const std::string& file, std::span<const std::int64_t> lines,
+                     const Scene& scene) {
+  if (scene.size() == 0) throw base::InputError(file, 0, "no bodies; expected at least one");
+  check_range(file, lines, scene);
+  check_walls(file, lines, scene);
+}
+
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overrides) {
@@ -364,8 +403,11 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
   } else if (path.extension() == robot_ending) {
     const toml::table nothing;
     files::TomlTable table(nothing, file, "");
-    scene = import_robot(table, path, MeshUse::surface, overrides);
+    bool draws = false;
+    scene = import_robot(table, path, MeshUse::surface, overrides, draws);
+    scene.name = path.stem().string();
     refuse_for_listed(file, overrides);
+    refuse_seed(file, overrides.seed);
     ignore_fixed_pairs(scene);
     if (overrides.frames != -1) set_frames(file, 0, overrides.frames, scene);
   } else {
@@ -380,9 +422,14 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
     const double gap = *overrides.gap;
     scene.name += fmt::format(" {} {}", gap < 0 ? "depth" : "gap", std::abs(gap));
   }
-  if (scene.size() == 0) throw base::InputError(file, 0, "no bodies; expected at least one");
-  check_range(file, lines, scene);
-  check_walls(file, lines, scene);
+  expect_playable(file, lines, scene);
+  return scene;
+}
+
+Scene scene_of_text(const std::string& text, const std::filesystem::path& path) {
+  std::vector<std::int64_t> lines;
+  Scene scene = read_toml(toml::parse(text), path, {}, lines);
+  expect_playable(path.string(), lines, scene);
   return scene;
 }
 

@@ -76,6 +76,9 @@ void record(const RecordOptions& options) {
                         "ones in every frame; expected --out with a name ending in .csv");
   }
   if (options.poses) {
+    if (options.boxes != scene::BoxKind::tight) {
+      throw base::InputError("--boxes: given beside --poses; expected one of the two");
+    }
     if (!csv || !scene.recording.empty()) {
       throw base::InputError(
           "--poses: expected a scene with bodies, and --out with a name ending in .csv");
@@ -100,7 +103,7 @@ void record(const RecordOptions& options) {
 
 void add_scene_record(Arguments command) {
   const auto options = std::make_shared<RecordOptions>();
-  command.text("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc) or .aabbs")
+  command.text("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc), .urdf or .aabbs")
       .required();
   command
       .text("--out", options->out,

@@ -14,9 +14,18 @@ namespace touchstone::scene {
 // Values of all joints of a robot (radians, metres), in the order of its joints.
 using Configuration = std::vector<double>;
 
-// The configuration `usual` with other values for some joints. Joints that mimic others follow, unless they are among
-// the values. Throws std::out_of_range for a joint that the robot does not have.
-Configuration with_values(const Robot& robot, Configuration usual,
+// What joints are where nothing else is said, and which of them have these values for good: a joint that mimics another
+// follows it unless it is `given`.
+struct UsualConfiguration {
+  Configuration values;
+  std::vector<char> given;  // one a joint
+};
+
+// usual_values with others for some joints. Throws std::out_of_range for a joint that the robot does not have.
+UsualConfiguration usual_configuration(const Robot& robot,
+                                       const std::map<std::string, double>& values);
+// The same with further values.
+Configuration with_values(const Robot& robot, const UsualConfiguration& usual,
                           const std::map<std::string, double>& values);
 
 struct TimedConfigurations {
@@ -28,7 +37,7 @@ struct TimedConfigurations {
 // rising). A row is a frame. Joints without a column have their usual value, or follow those that they mimic. Throws
 // InputError with file and line, also for a column that is no joint which moves.
 TimedConfigurations read_configurations(const std::filesystem::path& file, const Robot& robot,
-                                        const Configuration& usual);
+                                        const UsualConfiguration& usual);
 
 // A problem of motion planning, as the benchmark sets of MoveIt have it.
 struct MotionRequest {
@@ -38,9 +47,10 @@ struct MotionRequest {
 // file and line.
 MotionRequest read_request(const std::filesystem::path& file, const Robot& robot);
 
-// From one configuration to another in equal steps, both included: steps + 1 configurations.
-std::vector<Configuration> straight_path(const Configuration& from, const Configuration& to,
-                                         std::size_t steps);
+// From one configuration to another in equal steps, both included: steps + 1 configurations. A continuous joint turns
+// the shorter way.
+std::vector<Configuration> straight_path(const Robot& robot, const Configuration& from,
+                                         const Configuration& to, std::size_t steps);
 
 // Which joints random configurations move: one a joint of the robot. Joints that mimic others follow.
 struct RandomConfigurations {
@@ -48,10 +58,12 @@ struct RandomConfigurations {
   std::uint64_t seed = 1;
   std::vector<char> moves;
   // 0: each is drawn anew, evenly within the limits. Otherwise each is the one before, with each joint moved by at most
-  // this part of its range, and reflected at the limits; the first one is the usual one.
+  // this part of its range, and reflected at the limits (a continuous one goes round); the first one is the usual one,
+  // which is within the limits.
   double step = 0;
 };
-std::vector<Configuration> random_configurations(const Robot& robot, const Configuration& usual,
+std::vector<Configuration> random_configurations(const Robot& robot,
+                                                 const UsualConfiguration& usual,
                                                  const RandomConfigurations& request);
 
 }  // namespace touchstone::scene

@@ -76,14 +76,41 @@ geometry::Mesh read_triangles(const YamlNode& node) {
   return mesh;
 }
 
+// Adds `name` and `position` of a joint state.
+void read_values(const YamlNode& state, std::map<std::string, double>& values) {
+  const std::vector<YamlNode> names = state.elements("name");
+  const std::vector<YamlNode> positions = state.elements("position");
+  if (names.size() != positions.size()) {
+    state.fail(
+        fmt::format("{} names and {} positions; expected as many", names.size(), positions.size()));
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) values[names[i].text()] = positions[i].number();
+}
+
 class PlanningSceneReader {
  public:
   PlanningScene read(const YamlNode& top) {
     if (const auto state = top.find("robot_state")) read_state(*state);
     if (const auto world = top.find("world")) {
       for (const YamlNode& object : world->elements("collision_objects")) read_object(object);
+      const auto around = world->find("octomap");
+      const auto map = around ? around->find("octomap") : around;
+      if (map && !map->elements("data").empty()) {
+        map->fail("an octomap; expected primitives and meshes");
+      }
     }
     if (const auto matrix = top.find("allowed_collision_matrix")) read_matrix(*matrix);
+    for (const auto& [key, neutral] :
+         {std::pair{"link_padding", 0.0}, std::pair{"link_scale", 1.0}}) {
+      for (const YamlNode& link : top.elements(key)) {
+        const char* const value_key = neutral == 0 ? "padding" : "scale";
+        const YamlNode value = link.required(value_key);
+        if (value.number() != neutral) {
+          value.fail(fmt::format("{}: found {}; expected {}, links as they are", key,
+                                 value.number(), neutral));
+        }
+      }
+    }
     return std::move(scene_);
   }
 
@@ -92,6 +119,7 @@ class PlanningSceneReader {
     for (const YamlNode& object : state.elements("attached_collision_objects")) {
       object.fail("an attached object; expected objects of the world alone");
     }
+    if (const auto values = state.find("joint_state")) read_values(*values, scene_.joints);
     const auto joints = state.find("multi_dof_joint_state");
     if (!joints) return;
     const std::vector<YamlNode> transforms = joints->elements("transforms");
@@ -134,6 +162,10 @@ class PlanningSceneReader {
   }
 
   void read_matrix(const YamlNode& matrix) {
+    for (const YamlNode& value : matrix.elements("default_entry_values")) {
+      if (value.text() != "false")
+        value.fail("collisions that are allowed by default; expected none");
+    }
     const std::vector<std::string> names = matrix.texts("entry_names");
     const std::vector<YamlNode> rows = matrix.elements("entry_values");
     if (rows.size() != names.size()) {
@@ -163,20 +195,6 @@ class PlanningSceneReader {
   PlanningScene scene_;
 };
 
-// Adds `name` and `position` of a joint state. Joints that this variant of the robot lacks are left out.
-void read_values(const YamlNode& state, const Robot& robot, std::map<std::string, double>& values) {
-  const std::vector<YamlNode> names = state.elements("name");
-  const std::vector<YamlNode> positions = state.elements("position");
-  if (names.size() != positions.size()) {
-    state.fail(
-        fmt::format("{} names and {} positions; expected as many", names.size(), positions.size()));
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const double value = positions[i].number();
-    if (robot.find_joint(names[i].text())) values[names[i].text()] = value;
-  }
-}
-
 }  // namespace
 
 PlanningScene read_planning_scene(const std::filesystem::path& file) {
@@ -186,7 +204,9 @@ PlanningScene read_planning_scene(const std::filesystem::path& file) {
 MotionRequest read_request(const std::filesystem::path& file, const Robot& robot) {
   const YamlNode top = read_yaml(file, "a motion request in YAML");
   MotionRequest request;
-  read_values(top.required("start_state").required("joint_state"), robot, request.start);
+  read_values(top.required("start_state").required("joint_state"), request.start);
+  // A variant of the robot may lack some joints.
+  std::erase_if(request.start, [&](const auto& one) { return !robot.find_joint(one.first); });
   request.goal = request.start;
   const YamlNode goals = top.required("goal_constraints");
   const std::vector<YamlNode> all = goals.elements();

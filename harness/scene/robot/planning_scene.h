@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,12 +27,14 @@ struct PlanningScene {
   std::vector<Obstacle> obstacles;
   // Names of links or obstacles that may touch, from the matrix of allowed collisions.
   std::vector<std::pair<std::string, std::string>> allowed;
-  Pose base;  // of the robot, from its multi_dof_joint_state
+  std::map<std::string, double> joints;  // values of the robot's state
+  Pose base;                             // of the robot, from its multi_dof_joint_state
 };
 
 // Reads a planning scene (moveit_msgs/PlanningScene as YAML): the objects of `world` with primitives (box, sphere,
 // cylinder, cone) and meshes, `allowed_collision_matrix`, and where the robot stands. Positions and quaternions (x, y, z,
-// w) are lists or maps. Throws InputError with file and line: also for planes and attached objects, which it does not take.
+// w) are lists or maps. Throws InputError with file and line: also for what it does not take, which is planes, attached
+// objects, octomaps, padding, scaling, and collisions that are allowed by default.
 PlanningScene read_planning_scene(const std::filesystem::path& file);
 
 }  // namespace touchstone::scene

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_links = 10'000;
+constexpr std::size_t most_links = 2'000;
 
 template <typename Named>
 std::optional<std::uint32_t> find_named(const std::vector<Named>& all, std::string_view name) {
@@ -368,8 +368,11 @@ LinkPairs read_srdf(const fs::path& file, Robot& robot) {
   for (const XmlElement& state : root.children("group_state")) {
     std::map<std::string, double>& values = robot.states[state.text("name")];
     for (const XmlElement& joint : state.children("joint")) {
-      expect_named(robot.joints, joint, "name", "joint");
-      values[joint.text("name")] = joint.number("value");
+      // Virtual joints have several values, and a variant of the robot may lack some joints.
+      const auto known = robot.find_joint(joint.text("name"));
+      if (known && robot.joints[*known].moves()) {
+        values[joint.text("name")] = joint.number("value");
+      }
     }
   }
   robot.files.push_back(file);

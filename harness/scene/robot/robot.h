@@ -67,7 +67,7 @@ struct Robot {
   std::vector<IndexPair> joined, disabled;
   // The links that SRDF names and the robot does not have: what it says of them is left out.
   std::vector<std::string> unknown_links;
-  // SRDF's group states: values by joint.
+  // SRDF's group states: values by joint. States that several groups have by one name are one.
   std::map<std::string, std::map<std::string, double>> states;
   std::vector<std::filesystem::path> files;  // that were read: URDF and SRDF
 

@@ -14,7 +14,6 @@
 #include "harness/base/reproducible_math.h"
 #include "harness/geometry/concave_bodies.h"
 #include "harness/scene/body_reader.h"
-#include "harness/scene/generators/options.h"
 #include "harness/scene/pair_filter.h"
 #include "harness/scene/robot/configurations.h"
 #include "harness/scene/robot/planning_scene.h"
@@ -42,8 +41,7 @@ class RobotImporter {
     const fs::path srdf = table_.has("srdf") ? file_of("srdf", table_.text("srdf")) : fs::path();
     robot_ = read_robot(urdf_, srdf, read_packages());
     scene_.files = robot_.files;
-    scene_.name = robot_.name;
-    usual_ = with_values(robot_, usual_values(robot_), read_joints());
+    std::map<std::string, double> values = read_joints();
     if (table_.has("place")) {
       files::TomlTable place = table_.inside("place", "place");
       base_ = read_pose(place);
@@ -56,13 +54,19 @@ class RobotImporter {
       around = read_planning_scene(obstacles_);
       base_ = base::placed(around.base, base_);
     }
+    for (const auto& [name, value] : around.joints) {
+      if (robot_.find_joint(name)) values.emplace(name, value);
+    }
+    usual_ = usual_configuration(robot_, values);
     const std::vector<Configuration> configurations = read_configurations_key();
     add_links();
     follow(configurations);
     for (Obstacle& obstacle : around.obstacles) add_obstacle(std::move(obstacle));
     ignore_links();
+    const std::map<std::string, std::vector<std::uint32_t>> named = bodies_by_name(scene_);
     for (const auto& [first, second] : around.allowed) {
-      ignore_pairs(bodies_named(scene_, first), bodies_named(scene_, second), scene_.filter);
+      const auto a = named.find(first), b = named.find(second);
+      if (a != named.end() && b != named.end()) ignore_pairs(a->second, b->second, scene_.filter);
     }
     sort_ignored(scene_.filter);
     if (scene_.tracks.bodies.empty()) {
@@ -70,6 +74,8 @@ class RobotImporter {
     }
     return std::move(scene_);
   }
+
+  bool draws() const { return draws_; }
 
  private:
   fs::path file_of(std::string_view key, const std::string& name) const {
@@ -126,7 +132,7 @@ class RobotImporter {
     files::TomlTable joints = table_.inside("joints", "joints");
     for (const std::string& name : joints.keys()) {
       joint_of("joints", name);
-      values[name] = joints.number(name, files::any_number);
+      values[name] = joints.number(name, {.low = -1e9, .high = 1e9});
     }
     return values;
   }
@@ -135,17 +141,19 @@ class RobotImporter {
     const toml::node* node = table_.node("configurations");
     std::vector<std::string> held = table_.texts("held", {});
     if (node == nullptr) {
-      if (!held.empty()) table_.fail("held", "without random configurations; expected none");
-      refuse_seed(table_.file(), overrides_.seed);
-      return {usual_};
+      expect_none(held);
+      return {usual_.values};
     }
-    if (node->is_string())
-      return from_file("configurations", table_.text("configurations"), usual_steps);
+    if (node->is_string()) {
+      expect_none(held);
+      return from_file(table_, "configurations", usual_steps);
+    }
     files::TomlTable given = table_.inside("configurations", "configurations");
     std::vector<Configuration> configurations;
     if (given.has("file")) {
       const std::int64_t steps = given.integer("steps", 1, most_configurations, usual_steps);
-      configurations = from_file("configurations", given.text("file"), steps);
+      expect_none(held);
+      configurations = from_file(given, "file", steps);
     } else {
       configurations = at_random(given, held);
     }
@@ -153,14 +161,21 @@ class RobotImporter {
     return configurations;
   }
 
-  std::vector<Configuration> from_file(std::string_view key, const std::string& name,
+  void expect_none(const std::vector<std::string>& held) const {
+    if (!held.empty()) table_.fail("held", "without random configurations; expected none");
+  }
+
+  std::vector<Configuration> from_file(files::TomlTable& given, std::string_view key,
                                        std::int64_t steps) {
-    refuse_seed(table_.file(), overrides_.seed);
-    const fs::path file = file_of(key, name);
+    const fs::path file = file_of("configurations", given.text(key));
     scene_.files.push_back(file);
-    if (file.extension() == ".yaml" || file.extension() == ".yml") {
+    const bool is_request = file.extension() == ".yaml" || file.extension() == ".yml";
+    if (!is_request && key == "file" && given.contains("steps")) {
+      given.fail("steps", "of a file whose rows are the configurations; expected none");
+    }
+    if (is_request) {
       const MotionRequest request = read_request(file, robot_);
-      return straight_path(with_values(robot_, usual_, request.start),
+      return straight_path(robot_, with_values(robot_, usual_, request.start),
                            with_values(robot_, usual_, request.goal),
                            static_cast<std::size_t>(steps));
     }
@@ -182,7 +197,23 @@ class RobotImporter {
     request.seed = static_cast<std::uint64_t>(overrides_.seed == -1 ? seed : overrides_.seed);
     if (walks) request.step = given.number("step", {.low = 1e-9, .high = 1}, 0.05);
     for (const Joint& joint : robot_.joints) request.moves.push_back(joint.is_free() ? 1 : 0);
-    for (const std::string& name : held) request.moves[joint_of("held", name)] = 0;
+    for (const std::string& name : held) {
+      const std::uint32_t joint = joint_of("held", name);
+      if (!robot_.joints[joint].is_free()) {
+        table_.fail("held", fmt::format("\"{}\" follows another joint; expected that one",
+                                        base::shortened(name)));
+      }
+      request.moves[joint] = 0;
+    }
+    for (std::size_t i = 0; walks && i < request.moves.size(); ++i) {
+      const Joint& joint = robot_.joints[i];
+      const double value = usual_.values[i];
+      if (request.moves[i] == 0 || (value >= joint.lower && value <= joint.upper)) continue;
+      table_.fail("joints",
+                  fmt::format("{} = {}, where a walk begins; expected {} to {}",
+                              base::shortened(joint.name), value, joint.lower, joint.upper));
+    }
+    draws_ = true;
     return random_configurations(robot_, usual_, request);
   }
 
@@ -242,7 +273,13 @@ class RobotImporter {
       const std::vector<Pose> links = link_poses(robot_, values, base_);
       for (std::size_t i = 0; i < robot_.links.size(); ++i) {
         for (const LinkShape& shape : robot_.links[i].shapes) {
-          tracks.poses.push_back(base::placed(links[i], shape.pose));
+          const Pose pose = base::placed(links[i], shape.pose);
+          if (!pose.rotation.allFinite() || !pose.translation.allFinite()) {
+            throw base::InputError(urdf_.string(), shape.line,
+                                   "is not at a finite place in a configuration; expected smaller "
+                                   "values");
+          }
+          tracks.poses.push_back(pose);
         }
       }
     }
@@ -251,6 +288,12 @@ class RobotImporter {
   }
 
   void add_obstacle(Obstacle obstacle) {
+    if (robot_.find_link(obstacle.name)) {
+      throw base::InputError(obstacles_.string(), obstacle.line,
+                             fmt::format("an object has the name of the link \"{}\"; expected "
+                                         "another",
+                                         base::shortened(obstacle.name)));
+    }
     const std::uint32_t shape =
         obstacle.mesh ? add_mesh(std::move(*obstacle.mesh), obstacles_.string(), obstacle.line)
                       : scene_.add_shape(obstacle.shape);
@@ -271,7 +314,7 @@ class RobotImporter {
           fmt::format("frame_id \"{}\"; expected world or a link that is fixed to the root",
                       base::shortened(obstacle.frame)));
     }
-    return link_poses(robot_, usual_, base_)[*link];
+    return link_poses(robot_, usual_.values, base_)[*link];
   }
 
   void ignore_links() {
@@ -296,7 +339,8 @@ class RobotImporter {
   MeshUse use_;
   const SceneOverrides& overrides_;
   Robot robot_;
-  Configuration usual_;
+  UsualConfiguration usual_;
+  bool draws_ = false;
   Pose base_;
   Scene scene_;
   std::map<std::tuple<std::string, double, double, double>, std::uint32_t> meshes_;
@@ -305,8 +349,11 @@ class RobotImporter {
 }  // namespace
 
 Scene import_robot(files::TomlTable& table, const fs::path& urdf, MeshUse use,
-                   const SceneOverrides& overrides) {
-  return RobotImporter(table, urdf, use, overrides).import();
+                   const SceneOverrides& overrides, bool& draws) {
+  RobotImporter importer(table, urdf, use, overrides);
+  Scene scene = importer.import();
+  draws = importer.draws();
+  return scene;
 }
 
 }  // namespace touchstone::scene

@@ -14,7 +14,8 @@ namespace touchstone::scene {
 // planning scene allows. A mesh is what `use` says.
 // `table` has the robot's keys (datasets/README.md), and makes them known: `srdf`, `packages`, `place`, `joints`, `held`,
 // `configurations`, `obstacles`. Files are relative to the table's file. Throws InputError with file and line.
+// `draws` becomes true if configurations are random, which takes the seed of `overrides`.
 Scene import_robot(files::TomlTable& table, const std::filesystem::path& urdf, MeshUse use,
-                   const SceneOverrides& overrides);
+                   const SceneOverrides& overrides, bool& draws);
 
 }  // namespace touchstone::scene

@@ -89,6 +89,9 @@ TEST_F(RobotCommand, CountsContactsAndWhatSrdfHides) {
   EXPECT_EQ(scene.frames, 400);
   EXPECT_EQ(scene.bodies.size(), 7U);
   EXPECT_FALSE(scene.bodies[5].moving);
+  const Ran twice = run_program("robot " + path("rail.urdf") + " --out " + path("out"));
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.text, HasSubstr("scene.toml is there; expected another --out, or --overwrite"));
   const scene::Robot again = scene::read_robot(path("rail.urdf"), path("out/proposed.srdf"));
   EXPECT_FALSE(again.disabled.empty());
 }
@@ -108,6 +111,26 @@ TEST_F(RobotCommand, TakesRecordedConfigurations) {
               ContainsRegex("Always in contact[^:]*:[^\n]*\nlinks[^\n]*\n-+\nhigh, tip +2 +100 %"));
   EXPECT_THAT(ran.text, ContainsRegex("low, middle +1 +50 %"));
   EXPECT_THAT(ran.text, Not(HasSubstr("at 95 %"))) << "recorded ones are no sample";
+}
+
+// An obstacle may have the name of a link, and bodies without one are told apart.
+TEST_F(RobotCommand, TellsLinksFromWhatIsAroundThem) {
+  folder_.write("world.toml",
+                "[[body]]\nname = \"low\"\nshape = {type = \"sphere\", radius = 0.1}\ntranslation "
+                "= [0, 0, 0]\n"
+                "[[body]]\nshape = {type = \"sphere\", radius = 0.1}\ntranslation = [0, 0, 9]\n"
+                "[[body]]\nshape = {type = \"sphere\", radius = 0.1}\ntranslation = [0, 0, 0]\n");
+  const Ran ran = run_program("robot " + path("rail.urdf") + " --random 3 --scene " +
+                              path("world.toml") + " --out " + path("out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  const std::string pairs = folder_.read("out/pairs.csv");
+  EXPECT_THAT(pairs, HasSubstr("low,low,no,3,3,0\n"));
+  EXPECT_THAT(pairs, HasSubstr("low,body 5,no,3,0,0\n"));
+  EXPECT_THAT(pairs, HasSubstr("low,body 6,no,3,3,0\n"));
+  EXPECT_THAT(folder_.read("out/proposed.srdf"), Not(HasSubstr("Never")));
+  expect_refusal("robot " + path("rail.urdf") + " --scene " + path("out/scene.toml") + " --out " +
+                     path("out2"),
+                 "bodies that stand still", folder_);
 }
 
 TEST_F(RobotCommand, RefusesWhatItCannotRead) {

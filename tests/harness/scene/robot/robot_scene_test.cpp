@@ -326,6 +326,67 @@ TEST_F(RobotScenes, StandBesideOtherFiles) {
               HasSubstr("a second robot"));
 }
 
+TEST_F(RobotScenes, HoldMoreThanARobot) {
+  // A file that imports itself ends.
+  folder_.write("self.toml",
+                "import = \"self.toml\"\n[[body]]\nshape = {type = \"sphere\", radius = 1}\n");
+  EXPECT_THAT(input_fault([&] { scene::load_scene(folder_.path() / "self.toml"); }),
+              HasSubstr("perhaps by itself"));
+  // The frames are the robot's, also beside more of them.
+  folder_.write("long.toml", "frames = 30\ngenerator = \"uniform\"\ncount = 4\n");
+  folder_.write("churn.toml", "generator = \"uniform\"\ncount = 40\nchurn = 0.5\n");
+  const auto load_with = [&](const std::string& other) {
+    return scene::load_scene(folder_.write(
+        "scene.toml",
+        "import = [\"" + other + "\", \"crane.urdf\"]\nconfigurations = {random = 5}\n"));
+  };
+  EXPECT_EQ(load_with("long.toml").frames, 5);
+  EXPECT_THAT(input_fault([&] { load_with("churn.toml"); }),
+              HasSubstr("expected bodies that stay"));
+  // Fixed pairs are left out whatever comes first.
+  folder_.write("fixed.toml",
+                "moving = false\n[[body]]\nshape = {type = \"sphere\", radius = 1}\n"
+                "[[body]]\nshape = {type = \"sphere\", radius = 1}\n");
+  EXPECT_FALSE(load_with("fixed.toml").filter.asks({0, 1}));
+  EXPECT_TRUE(load_with("fixed.toml").filter.asks({0, 3}));
+  // A seed may be the generator's.
+  const std::string beside = "generator = \"uniform\"\ncount = 4\n";
+  EXPECT_NE(scene::scene_hash(load(beside, {.seed = 2})),
+            scene::scene_hash(load(beside, {.seed = 3})));
+}
+
+TEST_F(RobotScenes, RefuseWhatHasNoEffect) {
+  folder_.write("path.csv", "turn\n0\n");
+  EXPECT_THAT(fault("held = [\"turn\"]\nconfigurations = \"path.csv\"\n"),
+              HasSubstr("expected none"));
+  EXPECT_THAT(fault("configurations = {file = \"path.csv\", steps = 3}\n"), HasSubstr("steps"));
+  EXPECT_THAT(fault("configurations = {walk = 3, step = 0.1}\njoints = {rise = 7}\n"),
+              HasSubstr("rise = 7, where a walk begins; expected 0 to 1"));
+  EXPECT_THAT(fault("joints = {rise = 1e30}\n"), HasSubstr("rise"));
+  folder_.write("path.csv", "rise\n1e10\n");
+  EXPECT_THAT(fault("configurations = \"path.csv\"\n"), HasSubstr("expected a number from"));
+  const auto with = [&](const std::string& rest) {
+    folder_.write("problem.yaml", std::string(problem_scene) + rest);
+    return fault("obstacles = \"problem.yaml\"\n");
+  };
+  EXPECT_EQ(with("link_padding: [{link_name: boom, padding: 0}]\n"), "");
+  EXPECT_THAT(with("link_padding: [{link_name: boom, padding: 0.1}]\n"), HasSubstr("found 0.1"));
+  EXPECT_THAT(with("link_scale: [{link_name: boom, scale: 1.1}]\n"), HasSubstr("found 1.1"));
+}
+
+TEST_F(RobotScenes, TurnContinuousJointsTheShorterWay) {
+  std::string urdf = crane_urdf;
+  urdf.replace(urdf.find("revolute"), 8, "continuous");
+  folder_.write("crane.urdf", urdf);
+  std::string request = problem_request;
+  request.replace(request.find("position: [0,"), 13, "position: [3,");
+  request.replace(request.find("position: 1.5"), 13, "position: -3.0");
+  folder_.write("request.yaml", request);
+  const auto boom = places(load("configurations = {file = \"request.yaml\", steps = 2}\n"), 1);
+  EXPECT_LT((boom[1] - Vec3d(-1, 0, 0)).norm(), 1e-14);
+  EXPECT_LT((boom[2] - Vec3d(std::cos(-3.0), std::sin(-3.0), 0)).norm(), 1e-14);
+}
+
 TEST(RobotDatasets, AreWhatTheyWere) {
   const std::map<std::string, std::string> hashes = {{"arm", "90b5762201f755d5"},
                                                      {"walker", "792afd2a66f12234"}};
