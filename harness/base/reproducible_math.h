@@ -4,8 +4,10 @@
 // not, and a matrix product of Eigen may be fused or reordered on another vector unit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "algorithms/core/double_double.h"
 #include "algorithms/core/pose.h"
@@ -91,6 +93,23 @@ inline Mat3d rotation_of(const std::array<double, 4>& q) {
       s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),   //
       s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y);
   return r;
+}
+
+// The same of a quaternion whose squares may overflow or underflow; nothing if it is zero.
+inline std::optional<Mat3d> rotation_of_any(const std::array<double, 4>& q) {
+  double size = 0;
+  for (const double part : q) size = std::max(size, std::abs(part));
+  if (!(size > 0)) return std::nullopt;
+  return rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
+}
+
+// By how much the columns of a matrix fail to be orthonormal.
+inline double orthonormal_error(const Mat3d& m) {
+  return (m.transpose() * m - Mat3d::Identity()).cwiseAbs().maxCoeff();
+}
+// Whether a matrix of a file is used as a rotation, as it stands: to a thousandth, and right-handed.
+inline bool is_rotation(const Mat3d& m) {
+  return orthonormal_error(m) <= 1e-3 && !(m.determinant() < 0);
 }
 
 // The rotation by angular velocity w (radians per second) over a time (seconds): the exponential

@@ -91,10 +91,11 @@ struct VersionReport {
   std::vector<std::string> since() const;  // a line for each pair of versions with changes
 };
 
-// Compares the versions of each library, such as mujoco@3.9.0 and mujoco@3.14.0, in the order in which they were asked, if
-// two or more of one were asked. Libraries that are built in have one version each; those whose
-// depths are bounds by design are left out. All is told by the grades.csv of the finished check. Writes versions.csv, version_changes.csv and
-// wrong_pairs.jsonl (wrong_pairs.h) beside it if there are some. Throws base::InputError for a file that cannot be read or written.
+// Compares the versions of each library, such as mujoco@3.9.0 and mujoco@3.14.0, in the order in which they were asked,
+// if two or more of one were asked. Libraries that are built in have one version each; those whose depths are bounds by
+// design are left out. It reads the grades.csv of the finished check, and writes versions.csv, version_changes.csv and
+// wrong_pairs.jsonl (wrong_pairs.h) beside it if there are some. Throws base::InputError for a file that cannot be read
+// or written.
 VersionReport compare_versions(const CheckRequest& request);
 
 }  // namespace touchstone::check

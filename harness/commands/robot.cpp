@@ -19,6 +19,7 @@
 #include "harness/files/text_file.h"
 #include "harness/geometry/concave_bodies.h"
 #include "harness/report/link_contacts.h"
+#include "harness/scene/robot/planning_scene.h"
 #include "harness/scene/robot/robot.h"
 #include "harness/scene/scene.h"
 #include "harness/trade/advice/budget.h"
@@ -39,11 +40,7 @@ struct RobotOptions {
   bool overwrite = false;
 };
 
-bool is_yaml(const fs::path& file) {
-  return file.extension() == ".yaml" || file.extension() == ".yml";
-}
-
-// NAME=FOLDER, or a folder in which packages are.
+// Each word is NAME=FOLDER, or a folder that has packages in it.
 scene::Packages packages_of(const RobotOptions& options) {
   scene::Packages packages;
   for (const std::string& word : options.packages) {
@@ -65,7 +62,7 @@ std::string scene_text(const RobotOptions& options) {
   toml::table keys;
   const auto absolute = [](const std::string& file) { return fs::absolute(file).string(); };
   toml::array imports{absolute(options.robot)};
-  if (is_yaml(options.scene)) {
+  if (scene::is_yaml(options.scene)) {
     keys.insert("obstacles", absolute(options.scene));
   } else if (!options.scene.empty()) {
     imports.push_back(absolute(options.scene));
@@ -195,8 +192,9 @@ int look_at(const RobotOptions& options) {
   const std::size_t all = found.configurations;
 
   const auto moving = std::ranges::count_if(robot.joints, &scene::Joint::is_free);
-  fmt::print("{}: {} links, {} shapes, {} joints with a value; {} bodies around it\n", robot.name,
-             robot.links.size(), shapes, moving, scene.bodies.size() - shapes);
+  fmt::print("{}: {} links, {} shapes, {} joints with a value; {} bodies around it\n",
+             base::printable(robot.name), robot.links.size(), shapes, moving,
+             scene.bodies.size() - shapes);
   for (const std::string& link : robot.unknown_links) {
     fmt::print("Left out: what SRDF says of \"{}\", which the robot does not have\n",
                base::printable(link));

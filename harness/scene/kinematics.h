@@ -61,9 +61,9 @@ struct MotionStep {
 
 // Returns a step for each frame, from it to the next: as many steps as the scene has frames. In a
 // step a body goes straight to its place in the next frame, also where that is on a curve or behind a
-// wall's reflection, and turns evenly by its angular velocity; on a track, by the least turn that leads to its next
-// attitude, up to the last bits of this machine's arc tangent. The last step leaves bodies on tracks where they are. Throws InputError with the name of the
-// file if the scene has no bodies, or if they jump, arrive or leave.
+// wall's reflection, and turns evenly by its angular velocity. On a track it turns by the least turn that leads to its
+// next attitude, up to the last bits of this machine's arc tangent; the last step leaves it where it is. Throws
+// InputError with the name of the file if the scene has no bodies, or if they jump, arrive or leave.
 std::vector<MotionStep> motion_steps(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace touchstone::scene

@@ -77,17 +77,16 @@ class PoseLogReader {
     const std::string_view text = row.text(log_body);
     std::uint32_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const auto named = named_.find(text);
-    if (error != std::errc() && named != named_.end()) {
-      if (!named->second) row.fail("several bodies have this name; expected the number of one");
-      return *named->second;
+    if (error == std::errc() && end == text.data() + text.size() && number < scene_.bodies.size()) {
+      return number;
     }
-    if (error != std::errc() || end != text.data() + text.size() ||
-        number >= scene_.bodies.size()) {
+    const auto named = named_.find(text);
+    if (named == named_.end()) {
       row.fail(fmt::format("body \"{}\"; expected a name, or a number below {}",
                            base::shortened(text), scene_.bodies.size()));
     }
-    return number;
+    if (!named->second) row.fail("several bodies have this name; expected the number of one");
+    return *named->second;
   }
 
   static Pose pose_of(const files::CsvReader::Row& row) {
@@ -108,11 +107,10 @@ class PoseLogReader {
     Pose pose;
     if (!is_matrix) {
       pose.translation = {numbers[0], numbers[1], numbers[2]};
-      const std::array<double, 4> q = {numbers[3], numbers[4], numbers[5], numbers[6]};
-      const double size =
-          std::abs(*std::ranges::max_element(q, {}, [](double x) { return std::abs(x); }));
-      if (!(size > 0)) row.fail("the quaternion is 0; expected one that is not");
-      pose.rotation = base::rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
+      const std::optional<Mat3d> rotation =
+          base::rotation_of_any({numbers[3], numbers[4], numbers[5], numbers[6]});
+      if (!rotation) row.fail("the quaternion is 0; expected one that is not");
+      pose.rotation = *rotation;
       return pose;
     }
     for (int i = 0; i < 3; ++i) {
@@ -120,9 +118,7 @@ class PoseLogReader {
         pose.rotation(i, k) = numbers[static_cast<std::size_t>(4 * i + k)];
       pose.translation[i] = numbers[static_cast<std::size_t>(4 * i + 3)];
     }
-    const Mat3d& r = pose.rotation;
-    const double error = (r.transpose() * r - Mat3d::Identity()).cwiseAbs().maxCoeff();
-    if (!(error <= 1e-3) || r.determinant() < 0) {
+    if (!base::is_rotation(pose.rotation)) {
       row.fail("the matrix is no rotation; expected orthonormal columns, right-handed");
     }
     return pose;

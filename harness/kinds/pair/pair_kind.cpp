@@ -14,7 +14,6 @@
 namespace touchstone::kinds {
 namespace {
 
-
 std::vector<Family> pair_families() {
   std::vector<Family> list;
   for (const Regime& regime : regimes()) list.push_back(family_of(regime));

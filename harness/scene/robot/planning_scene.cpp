@@ -197,6 +197,10 @@ class PlanningSceneReader {
 
 }  // namespace
 
+bool is_yaml(const std::filesystem::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
 PlanningScene read_planning_scene(const std::filesystem::path& file) {
   return PlanningSceneReader().read(read_yaml(file, "a planning scene in YAML"));
 }

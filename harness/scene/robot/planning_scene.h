@@ -31,6 +31,9 @@ struct PlanningScene {
   Pose base;                             // of the robot, from its multi_dof_joint_state
 };
 
+// Whether the file is YAML by its ending.
+bool is_yaml(const std::filesystem::path& file);
+
 // Reads a planning scene (moveit_msgs/PlanningScene as YAML): the objects of `world` with primitives (box, sphere,
 // cylinder, cone) and meshes, `allowed_collision_matrix`, and where the robot stands. Positions and quaternions (x, y, z,
 // w) are lists or maps. Throws InputError with file and line: also for what it does not take, which is planes, attached

@@ -62,8 +62,8 @@ struct Robot {
   std::vector<Link> links;    // as in the file
   std::vector<Joint> joints;  // each behind the one that moves its parent
   std::uint32_t root = 0;     // the link that no joint moves
-  // Pairs of links that are not to be asked, sorted, a < b. `joined`: those that are joined rigidly, and those that a moving
-  // joint joins, directly or through links without shapes. `disabled`: others that SRDF disables.
+  // Pairs of links that are not to be asked, sorted, a < b. `joined` has those that are joined rigidly, and those that a
+  // moving joint joins, directly or through links without shapes; `disabled` has others that SRDF disables.
   std::vector<IndexPair> joined, disabled;
   // The links that SRDF names and the robot does not have: what it says of them is left out.
   std::vector<std::string> unknown_links;
@@ -85,8 +85,8 @@ struct Packages {
 // Reads a URDF file (wiki.ros.org/urdf/XML): links' collision elements (box, cylinder, sphere, capsule, mesh with
 // scale; several a link), and joints of the kinds above with limits and mimics. What is not of use for collisions is
 // ignored (visual, inertial, transmission...). A package that `packages` does not have is a folder of its name beside the
-// URDF file, or above. Reads of an SRDF file (wiki.ros.org/srdf) which collisions it disables, and group states. An empty `srdf` is the file of that ending
-// beside the URDF file, if there is one.
+// URDF file, or above. Reads of an SRDF file (wiki.ros.org/srdf) which collisions it disables, and group states. An
+// empty `srdf` is the file of that ending beside the URDF file, if there is one.
 // Throws InputError with file, line and what was expected: also for joints that are floating or planar, make a loop or
 // leave a link alone; for names that are there twice or that nothing has; and for files that are missing.
 Robot read_robot(const std::filesystem::path& urdf, const std::filesystem::path& srdf = {},

@@ -169,7 +169,7 @@ class RobotImporter {
                                        std::int64_t steps) {
     const fs::path file = file_of("configurations", given.text(key));
     scene_.files.push_back(file);
-    const bool is_request = file.extension() == ".yaml" || file.extension() == ".yml";
+    const bool is_request = is_yaml(file);
     if (!is_request && key == "file" && given.contains("steps")) {
       given.fail("steps", "of a file whose rows are the configurations; expected none");
     }
@@ -323,15 +323,12 @@ class RobotImporter {
     for (std::size_t i = 0; i < robot_.links.size(); ++i) {
       for (std::size_t k = 0; k < robot_.links[i].shapes.size(); ++k) bodies[i].push_back(next++);
     }
-    for (const auto& own : bodies) add_ignored(own, own);
+    for (const auto& own : bodies) ignore_pairs(own, own, scene_.filter);
     for (const auto* pairs : {&robot_.joined, &robot_.disabled}) {
-      for (const IndexPair& pair : *pairs) add_ignored(bodies[pair.a], bodies[pair.b]);
+      for (const IndexPair& pair : *pairs) {
+        ignore_pairs(bodies[pair.a], bodies[pair.b], scene_.filter);
+      }
     }
-  }
-
-  void add_ignored(const std::vector<std::uint32_t>& some,
-                   const std::vector<std::uint32_t>& others) {
-    ignore_pairs(some, others, scene_.filter);
   }
 
   files::TomlTable& table_;

@@ -107,10 +107,9 @@ Pose YamlNode::pose() const {
   }
   if (const auto turn = either("orientation", "rotation")) {
     const std::vector<double> q = turn->numbers({"x", "y", "z", "w"});
-    double size = 0;
-    for (const double part : q) size = std::max(size, std::abs(part));
-    if (!(size > 0)) turn->fail("found the quaternion 0, 0, 0, 0; expected one that is not zero");
-    pose.rotation = base::rotation_of({q[3] / size, q[0] / size, q[1] / size, q[2] / size});
+    const std::optional<Mat3d> rotation = base::rotation_of_any({q[3], q[0], q[1], q[2]});
+    if (!rotation) turn->fail("found the quaternion 0, 0, 0, 0; expected one that is not zero");
+    pose.rotation = *rotation;
   }
   return pose;
 }

@@ -54,6 +54,18 @@ TEST_F(PoseLogs, PlaceBodiesByNumberAndName) {
   EXPECT_EQ(kinematics.poses()[2].translation, Vec3d(2, 0, 0)) << "by its velocity";
 }
 
+// A number is a body's; what only begins with digits is a name.
+TEST_F(PoseLogs, TellNumbersFromNames) {
+  folder_.write("log.csv",
+                "frame,body,x,y,z,qw,qx,qy,qz\n0,2nd,1,0,0,1,0,0,0\n0,0,2,0,0,1,0,0,0\n");
+  const std::string ball = "shape = {type = \"sphere\", radius = 1}\n";
+  const scene::Scene scene = scene::load_scene(
+      folder_.write("scene.toml", "poses = \"log.csv\"\n[[body]]\nname = \"1\"\n" + ball +
+                                      "[[body]]\nname = \"2nd\"\n" + ball));
+  EXPECT_EQ(scene.bodies[0].pose.translation, Vec3d(2, 0, 0));
+  EXPECT_EQ(scene.bodies[1].pose.translation, Vec3d(1, 0, 0));
+}
+
 TEST_F(PoseLogs, AreWrittenAndReadWithTheSameBits) {
   const auto original =
       folder_.write("turning.toml",
@@ -83,7 +95,8 @@ TEST_F(PoseLogs, AreWrittenAndReadWithTheSameBits) {
 TEST_F(PoseLogs, ThatAreMalformedAreRefusedWithTheirPlace) {
   const std::string quaternions = "frame,body,x,y,z,qw,qx,qy,qz\n";
   EXPECT_THAT(fault(quaternions), HasSubstr("no row behind the header"));
-  EXPECT_THAT(fault(quaternions + "1,0,0,0,0,1,0,0,0\n"), HasSubstr("log.csv:2: frame 1; expected 0"));
+  EXPECT_THAT(fault(quaternions + "1,0,0,0,0,1,0,0,0\n"),
+              HasSubstr("log.csv:2: frame 1; expected 0"));
   EXPECT_THAT(fault(quaternions + "0,0,0,0,0,1,0,0,0\n2,0,0,0,0,1,0,0,0\n"),
               HasSubstr("log.csv:3: frame 2 after frame 0"));
   EXPECT_THAT(fault(quaternions + "0,3,0,0,0,1,0,0,0\n"), HasSubstr("a number below 3"));

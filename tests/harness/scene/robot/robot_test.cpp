@@ -21,7 +21,7 @@ using scene::Robot;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// A pan, an arm that slides along x and mimics nothing, a fixed flange, and a finger that follows the slide.
+// An arm turns on a base, a flange slides along x, a hand is welded to it, and a finger follows the slide.
 const std::string small_urdf = R"(<?xml version="1.0"?>
 <robot name="small">
   <link name="base"><collision><geometry><box size="2 2 0.2"/></geometry></collision></link>
@@ -77,6 +77,16 @@ TEST(Robots, HaveLinksShapesAndJointsBehindTheirParents) {
   for (const scene::Joint& joint : robot.joints) joints.push_back(joint.name);
   EXPECT_THAT(joints, testing::ElementsAre("pan", "slide", "weld", "follow"));
   EXPECT_EQ(robot.joints[3].axis, Vec3d(0, 0, 1));
+}
+
+// URDF's angles are about the fixed axes x, y and z, in this order.
+TEST(Robots, TurnByRollPitchAndYaw) {
+  const Robot robot = read(with("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0.3 -0.7 1.9\""));
+  const Mat3d turn =
+      (Eigen::AngleAxisd(1.9, Vec3d::UnitZ()) * Eigen::AngleAxisd(-0.7, Vec3d::UnitY()) *
+       Eigen::AngleAxisd(0.3, Vec3d::UnitX()))
+          .toRotationMatrix();
+  EXPECT_LT((robot.links[1].shapes[0].pose.rotation - turn).norm(), 1e-14);
 }
 
 TEST(Robots, StandWhereTheirJointsSay) {
@@ -143,10 +153,7 @@ TEST(Robots, IgnoreWhatIsJoined) {
                         {"arm", "hand"}, {"finger", "hand"}, {"finger", "flange"}};
   EXPECT_EQ(ignored(read(small_urdf)), joined);
   // Through a link without shapes two joints join their ends.
-  const std::string through =
-      with("<link name=\"flange\"/>", "<link name=\"flange\"/>")
-          .replace(small_urdf.find("type=\"fixed\""), 12, "type=\"continuous\"");
-  Names more = joined;
+  const std::string through = with("type=\"fixed\"", "type=\"continuous\"");
   EXPECT_EQ(ignored(read(through)), (Names{{"arm", "base"},
                                            {"arm", "flange"},
                                            {"flange", "hand"},
