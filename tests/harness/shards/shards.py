@@ -142,6 +142,13 @@ class Plan:
             time.sleep(0.01)
         raise Fault(f"no shard of {self.folder} was caught in {seconds:g} s\n{self.touchstone('shards', 'status', self.folder)}")
 
+    def wait_for_tasks(self, seconds=120.0):
+        """Waits until no process does a shard of this plan."""
+        end = time.monotonic() + seconds
+        while tasks := self.tasks():
+            expect(time.monotonic() < end, f"shards {[task.shard for task in tasks]} are not done in {seconds:g} s")
+            time.sleep(0.01)
+
     def expect_same(self):
         """The results have the rows of the undisturbed run: none is lost, none is there twice."""
         self.compare(self.results, self.whole)
