@@ -22,18 +22,18 @@ Isa detect() {
 #endif
 }
 
-std::atomic<Isa> level{isa_of_machine()};
+std::atomic<Isa> chosen{isa_of_machine()};
 
 }  // namespace
 
-Isa isa() { return level.load(std::memory_order_relaxed); }
+Isa isa() { return chosen.load(std::memory_order_relaxed); }
 
 Isa isa_of_machine() {
   static const Isa best = detect();
   return best;
 }
 
-void limit_isa(Isa limit) { level.store(std::min(limit, isa_of_machine())); }
+void limit_isa(Isa limit) { chosen.store(std::min(limit, isa_of_machine())); }
 
 std::string_view to_string(Isa level) {
   switch (level) {

@@ -33,8 +33,10 @@ Sum sum(double radius_a, double radius_b) {
 }  // namespace
 
 DoubleBounds round_less(const SignedRoot& value, double radius_a, double radius_b) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  if (value.is_infinite()) return {value.sign * inf, value.sign * inf};
+  if (value.is_infinite()) {
+    const double infinite = value.sign * std::numeric_limits<double>::infinity();
+    return {infinite, infinite};
+  }
   const Sum radius = sum(radius_a, radius_b);
   // The root as an integer over 2^-shift: at least 64 bits, and 200 below the radius's first bit.
   // The shift grows if the radius cancels so much of the root that these bits do not determine the

@@ -1,0 +1,50 @@
+// The fuzzer: libFuzzer's entry points for one reader, which the environment names (TOUCHSTONE_READER).
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "tests/fuzz/readers.h"
+
+namespace {
+
+// In memory where that is to be had: each input is written as a file.
+std::filesystem::path folder_of_this_process() {
+  std::string name = std::filesystem::is_directory("/dev/shm") ? "/dev/shm/touchstone-XXXXXX"
+                                                               : "/tmp/touchstone-XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  return name;
+}
+
+std::optional<touchstone::fuzz::Trial> trial;
+std::filesystem::path folder;
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  const char* name = std::getenv("TOUCHSTONE_READER");
+  try {
+    const auto& reader = touchstone::fuzz::reader_named(name == nullptr ? "" : name);
+    folder = folder_of_this_process();
+    std::atexit([] {
+      std::error_code ignored;
+      std::filesystem::remove_all(folder, ignored);
+    });
+    trial.emplace(reader, folder);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    std::exit(2);
+  }
+  return 0;
+}
+
+// What is thrown ends the fuzzer, and the input is kept.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  trial->fault({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
