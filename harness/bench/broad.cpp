@@ -16,8 +16,8 @@
 #include "algorithms/core/executor/executor.h"
 #include "algorithms/registry.h"
 #include "harness/base/clock.h"
+#include "harness/base/data_folder.h"
 #include "harness/bench/benchmarks.h"
-#include "harness/record/build_info.h"
 #include "harness/scene/player.h"
 
 namespace touchstone::bench {
@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 5> scenes = {"uniform", "clustered", "mix
 constexpr std::array<std::int64_t, 2> body_counts = {1'000, 10'000};
 
 scene::Scene load(std::string_view name, const scene::SceneOverrides& overrides) {
-  const std::filesystem::path folder = std::filesystem::path(record::source_folder) / "datasets";
+  const std::filesystem::path folder = base::data_folder().path / "datasets";
   return scene::load_scene(folder / (std::string(name) + ".toml"), overrides);
 }
 

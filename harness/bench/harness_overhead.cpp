@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/base/data_folder.h"
 #include "harness/measure/narrow_sampler.h"
 #include "harness/measure/phase_samplers.h"
-#include "harness/record/build_info.h"
 
 namespace touchstone::bench {
 namespace {
@@ -42,8 +42,8 @@ struct Stage {
   measure::BlockInput input;
 
   explicit Stage(const char* file)
-      : scene(scene::load_scene(std::filesystem::path(record::source_folder) / "datasets" / file,
-                                {bodies, -1, frames})),
+      : scene(
+            scene::load_scene(base::data_folder().path / "datasets" / file, {bodies, -1, frames})),
         input(scene, scene::BoxKind::tight, true) {}
 };
 

@@ -117,8 +117,9 @@ int run_front(const AdviseOptions& options) {
 void add_advise(Arguments command) {
   auto options = std::make_shared<AdviseOptions>();
   const Option scene =
-      command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json");
-  Option list = command.text("--list", options->list, "File of scenes, each with its own error");
+      command.text("scene", options->scene, "Scene file: .toml or rigid-ipc's .json").is_read();
+  Option list =
+      command.text("--list", options->list, "File of scenes, each with its own error").is_read();
   command
       .number("--max-error", options->budget.most,
               "The greatest error that will do, as tests have to show at 95 %")
@@ -145,7 +146,7 @@ void add_advise(Arguments command) {
             "Compare substeps of narrow phases with casts, on bodies that move within a frame")
       .needs(front);
   command.text("--out", options->out,
-               "Folder (default: results/local/trade-NAME-advice in the project; with --front "
+               "Folder (default: results/local/trade-NAME-advice; with --front "
                "trade-NAME)");
   add_trade_axes(command, options->request);
   list.excludes(scene);

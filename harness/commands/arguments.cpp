@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 
+#include "harness/base/data_folder.h"
 #include "harness/base/names.h"
 #include "harness/commands/commands.h"
 
@@ -117,6 +118,11 @@ Option Option::value_optional() {
 
 Option Option::once_each() {
   option_->allow_extra_args(false);
+  return *this;
+}
+
+Option Option::is_read() {
+  option_->transform([](const std::string& name) { return base::found(name).string(); }, "");
   return *this;
 }
 
@@ -291,6 +297,10 @@ CommandLine::CommandLine(const std::string& about)
 }
 
 CommandLine::~CommandLine() = default;
+
+void CommandLine::version(const std::string& text) {
+  app_->set_version_flag("--version", text, "Print the version and exit");
+}
 
 Arguments CommandLine::everywhere() { return {app_.get(), &status_}; }
 

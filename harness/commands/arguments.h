@@ -32,6 +32,8 @@ class Option {
   Option separated_by_commas();
   Option value_optional();  // the option may stand without a value
   Option once_each();       // each value stands behind a name of its own
+  // Each value names a file or folder that is read: what is not there is taken from the data folder (base::found).
+  Option is_read();
 
   // Shows the present value, or this text, in --help.
   Option show_default();
@@ -132,6 +134,8 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
+  // Adds --version, which prints this text.
+  void version(const std::string& text);
   // Returns the options that may stand anywhere.
   Arguments everywhere();
   // `heading` is that under which --help lists the command.

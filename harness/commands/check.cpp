@@ -183,8 +183,10 @@ void add_older_spellings(Arguments& command, check::CaseSelection& selection) {
 void add_check(Arguments command) {
   const auto options = std::make_shared<CheckOptions>();
   check::CheckRequest& common = options->common;
-  const Option file = command.text(
-      "FILE", options->file, "Pairs to grade in place of the regimes, one JSON object a line");
+  const Option file = command
+                          .text("FILE", options->file,
+                                "Pairs to grade in place of the regimes, one JSON object a line")
+                          .is_read();
   Option axes = command
                     .text("--axes", options->axes,
                           "Drive one property of a case at a time to its extreme, and find where "
@@ -206,6 +208,7 @@ void add_check(Arguments command) {
           "--answers", options->answers,
           "Also grade what a peer answered to the questions of --export: its file, with the same "
           "options")
+      .is_read()
       .once_each();
   command.text("--kind", options->selection.kinds,
                "Only these kinds: pair, box, mesh, ray, point, cast, feature, scene-ray");
@@ -238,7 +241,7 @@ void add_check(Arguments command) {
               "Seconds that a query may take (default: 10; with --axes 0.5)")
       .positive();
   command.text("--out", options->out,
-               "Folder for the results (default: results/local/check in the project; with --axes "
+               "Folder for the results (default: results/local/check; with --axes "
                "stress, with --count soak)");
   command.flag("--resume", common.resume, "Go on with the work in this folder");
   const Option page =
@@ -256,7 +259,8 @@ void add_check(Arguments command) {
                            "--save-certificates", "--out"}) {
     written.excludes(command.option(name));
   }
-  command.text("--certificates", options->certificates, "Only verify the proofs in this file");
+  command.text("--certificates", options->certificates, "Only verify the proofs in this file")
+      .is_read();
   add_older_spellings(command, options->selection);
   for (const kinds::Kind* kind : kinds::checked_kinds()) {
     written.excludes(command.option("--" + std::string(kind->old_name())));

@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "harness/base/data_folder.h"
 #include "harness/base/error.h"
 #include "harness/base/table.h"
 #include "harness/check/changed_answers.h"
@@ -20,7 +21,6 @@
 #include "harness/files/output_file.h"
 #include "harness/files/text_file.h"
 #include "harness/process/subprocess.h"
-#include "harness/record/build_info.h"
 #include "harness/record/machine.h"
 #include "harness/record/result_folder.h"
 #include "harness/stats/cell_results.h"
@@ -222,10 +222,10 @@ Judgement compare_programs(const CompareOptions& options) {
   if (options.files.size() > 1) {
     throw base::InputError("with --exe, found more than one campaign; expected one or none");
   }
-  const std::filesystem::path source(record::source_folder);
-  const std::string campaign = options.files.empty()
-                                   ? (source / "datasets/campaigns/compare.toml").string()
-                                   : options.files[0];
+  const std::string campaign =
+      options.files.empty()
+          ? (base::data_folder().path / "datasets/campaigns/compare.toml").string()
+          : options.files[0];
   const std::filesystem::path out = results_folder(options.out, "compare");
   if (!std::ifstream(campaign)) throw base::InputError(campaign, 0, "cannot be read");
   record::ResultFolder folder({.folder = out,
@@ -269,11 +269,12 @@ int finish(const CompareOptions& options, const Judgement& judged) {
 
 void add_compare(Arguments command) {
   auto options = std::make_shared<CompareOptions>();
-  command.texts(
-      "results", options->files,
-      "A and B: results folders or raw.csv files of `run`, folders of `check`, or counts of "
-      "instructions. With --exe: a campaign file (default: "
-      "datasets/campaigns/compare.toml)");
+  command
+      .texts("results", options->files,
+             "A and B: results folders or raw.csv files of `run`, folders of `check`, or counts of "
+             "instructions. With --exe: a campaign file (default: "
+             "datasets/campaigns/compare.toml)")
+      .is_read();
   const Option exe =
       command
           .texts("--exe", options->programs,
@@ -289,7 +290,7 @@ void add_compare(Arguments command) {
       .show_default();
   command
       .text("--out", options->out,
-            "With --exe: folder for the runs (default: results/local/compare in the project)")
+            "With --exe: folder for the runs (default: results/local/compare)")
       .needs(exe);
   command
       .number("--max-error", options->max_error,

@@ -9,9 +9,9 @@
 #include <iterator>
 #include <string>
 
+#include "harness/base/data_folder.h"
 #include "harness/commands/program.h"
 #include "harness/process/subprocess.h"
-#include "harness/record/build_info.h"
 
 namespace touchstone::commands {
 namespace {
@@ -43,7 +43,7 @@ void make_page(const std::filesystem::path& folder) {
 
 Drawing draw_figures(const std::string& script, const std::vector<std::string>& arguments,
                      const std::filesystem::path& log) {
-  const std::filesystem::path plots = std::filesystem::path(record::source_folder) / "plots";
+  const std::filesystem::path plots = base::data_folder().path / "plots";
   std::vector<std::string> words = {"-B", (plots / script).string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const int status = process::run_and_wait((plots / "python").string(), words, log);

@@ -26,6 +26,7 @@
 #include "harness/base/nearest_name.h"
 #include "harness/commands/commands.h"
 #include "harness/process/standard_output.h"
+#include "harness/record/build_info.h"
 #include "harness/record/machine.h"
 
 namespace touchstone::commands {
@@ -33,6 +34,8 @@ namespace {
 
 std::string
     launcher;  // the file of what started this program; empty where that was not the launcher
+
+bool is_whole = false;  // this program has all commands: it is `touchstone_more`, or installed
 
 // Keeps the launcher from the programs that this one starts: another tree has another.
 void take_launcher() {
@@ -48,6 +51,22 @@ constexpr std::array all_commands = std::to_array<CommandRow>({
 #define TOUCHSTONE_COMMAND(program, name, takes, heading, about) {#program, #name, heading, about},
 #include "harness/commands/commands.inl"
 });
+
+// Sets whether the program has every command that is not the launcher's.
+void look_at_own(std::initializer_list<OwnCommand> own) {
+  is_whole = std::ranges::all_of(all_commands, [&](const CommandRow& row) {
+    return row.program == "launcher" ||
+           std::ranges::find(own, row.name, &OwnCommand::name) != own.end();
+  });
+}
+
+// Refuses a command that only the launcher has.
+void refuse_launchers(std::string_view word) {
+  const auto* const row = std::ranges::find(all_commands, word, &CommandRow::name);
+  if (row == all_commands.end() || row->program != "launcher") return;
+  throw base::InputError(
+      fmt::format("`{}` needs the source tree; expected `./touchstone {}` there", word, word));
+}
 
 bool is_command(std::string_view word) {
   const auto* const row = std::ranges::find(all_commands, word, &CommandRow::name);
@@ -115,6 +134,15 @@ void take_other_build(std::vector<std::string>& words) {
   words.erase(words.begin());
 }
 
+// The version of the project, and the commit of the sources.
+std::string version_text() {
+  const record::Build& build = record::build();
+  std::string text = fmt::format("touchstone {}", record::version);
+  if (std::string_view(build.commit) == "unknown") return text;
+  return fmt::format("{} (commit {:.12}{})", text, build.commit,
+                     std::string_view(build.tree) == "changed" ? ", changed" : "");
+}
+
 int run_command(std::vector<std::string> words, std::initializer_list<OwnCommand> own) {
   take_other_build(words);
   const auto own_command = [&](std::string_view name) {
@@ -129,12 +157,14 @@ int run_command(std::vector<std::string> words, std::initializer_list<OwnCommand
     }
     if (own_command(*command) == own.end()) hand_over();
   } else if (!words.empty() && !words.front().starts_with('-')) {
+    refuse_launchers(words.front());
     std::vector<std::string_view> names;
     for (const CommandRow& row : all_commands) names.push_back(row.name);
     throw base::InputError(base::unknown_name("command", words.front(), names));
   }
 
   CommandLine line("Touchstone: a benchmark of collision detection that checks what it measures");
+  line.version(version_text());
   std::string isa_name = "best";
   Arguments everywhere = line.everywhere();
   everywhere
@@ -158,6 +188,7 @@ int run_command(std::vector<std::string> words, std::initializer_list<OwnCommand
 }  // namespace
 
 std::string more_program() {
+  if (is_whole) return std::filesystem::read_symlink("/proc/self/exe");
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "touchstone_more";
 }
 
@@ -175,7 +206,7 @@ void hand_over() {
     if (i == 0) words.push_back(first.data());
   }
   words.push_back(nullptr);
-  if (std::filesystem::read_symlink("/proc/self/exe") == more_program()) {
+  if (is_whole) {
     throw base::InputError("found a command of `touchstone`; expected another");
   }
   const std::string program = launcher.empty() ? more_program() : launcher;
@@ -191,6 +222,7 @@ void hand_over() {
 int run_program(int argc, char** argv, const record::Build& build,
                 std::initializer_list<OwnCommand> own) {
   take_launcher();
+  look_at_own(own);
   record::set_build(build);
   process::escape_output();
   try {

@@ -1,6 +1,7 @@
 // The main function of the program, which is two executables.
 // The standard comparison does not wait for the compilation of all else: `touchstone` has what it measures,
 // `touchstone_more` has everything. The first has the names of all commands, and hands over to the second.
+// Installed there is one, `touchstone_more` under the name `touchstone`.
 #pragma once
 
 #include <initializer_list>
@@ -25,7 +26,7 @@ extern const record::Build this_build;
 int run_program(int argc, char** argv, const record::Build& build,
                 std::initializer_list<OwnCommand> own);
 
-// Returns the path of `touchstone_more`, which is beside this program, and the word that has to stand
+// Returns the path of `touchstone_more`, which is beside this program unless it is this one, and the word that has to stand
 // before all others when it is run: with it, a program of another build refuses to run.
 std::string more_program();
 std::string more_first_word();

@@ -213,9 +213,7 @@ struct QueryOptions {
 
 // Returns what is wrong with the text of an option, or an empty string.
 std::string option_fault(const QueryOption& option, const std::string& text) {
-  if (option.value == Value::flag || option.value == Value::text || option.value == Value::list) {
-    return "";
-  }
+  if (option.value <= Value::list) return "";  // no number, and no choice
   if (option.value == Value::choice) {
     std::string names;
     for (const std::string_view name : option.choices) {
@@ -414,6 +412,9 @@ void add_options_of_kinds(Arguments& command, QueryOptions& options) {
     const std::string help = fmt::format("{} [{}]", helps[name], kinds_with(name));
     const auto add = [&] {
       if (values[name] == Value::flag) return command.flag(name, options.flags[name], help);
+      if (values[name] == Value::file) {
+        return command.text(name, options.texts[name], help).is_read();
+      }
       if (values[name] != Value::list) return command.text(name, options.texts[name], help);
       return command.texts(name, options.lists[name], help).separated_by_commas();
     };
@@ -429,12 +430,12 @@ void add_query(Arguments command) {
   for (const kinds::Kind* kind : kinds::asked_kinds()) {
     kind_list += fmt::format("{}{}", kind_list.empty() ? "" : ", ", kind->name());
   }
-  command.text(
-      "FILE", options->file,
-      "The questions. JSON, one object a line: pairs of bodies, which may move. CSV: boxes, rays, "
-      "points, or "
-      "moving vertices and edges; or a folder of the last, or a recording of boxes (.aabbs); or "
-      "with --bodies a scene");
+  command
+      .text("FILE", options->file,
+            "The questions. JSON, one object a line: pairs of bodies, which may move. CSV: boxes, "
+            "rays, points, or moving vertices and edges; or a folder of the last, or a recording "
+            "of boxes (.aabbs); or with --bodies a scene")
+      .is_read();
   command
       .text("--with,--narrow,--broad,--cast,--ccd,--query,--algorithm", options->names,
             "Algorithms: names joined by commas, all, ours, libraries or oracle")
@@ -450,9 +451,11 @@ void add_query(Arguments command) {
               "boxes none)")
       .positive();
   add_options_of_kinds(command, *options);
-  command.text(
-      "--certificates", options->certificates,
-      "Only verify the proofs in this file, and with FILE that each is of one of its questions");
+  command
+      .text(
+          "--certificates", options->certificates,
+          "Only verify the proofs in this file, and with FILE that each is of one of its questions")
+      .is_read();
   command.exclude_others("--certificates", {"FILE", "--kind"});
   command.job([options]() -> int {
     return options->certificates.empty() ? query(*options) : verify(*options);

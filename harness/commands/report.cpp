@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/base/data_folder.h"
 #include "harness/base/error.h"
 #include "harness/campaign/campaign.h"
 #include "harness/commands/arguments.h"
@@ -44,8 +45,9 @@ struct ReportOptions {
   double time_limit = report::ResultsRequest{}.time_limit;
 };
 
-// The launcher builds the page beside the programs.
+// The launcher builds the page beside the programs; an installation has it among its data.
 fs::path usual_page() {
+  if (base::data_folder().is_installed) return base::data_folder().path / "page.html";
   return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "page" / "page.html";
 }
 
@@ -196,9 +198,13 @@ std::string built_page(const fs::path& given) {
   std::ifstream in(file, std::ios::binary);
   std::string page{std::istreambuf_iterator<char>(in), {}};
   if (page.empty()) {
-    throw base::InputError(file.string() +
-                           ": the page is not built; `./touchstone report` builds it, for which it "
-                           "needs Node.js (Debian: nodejs, npm)");
+    throw base::InputError(
+        file.string() +
+        (base::data_folder().is_installed
+             ? ": the page is not installed; expected it from the target `page` of the build, "
+               "which needs Node.js"
+             : ": the page is not built; `./touchstone report` builds it, for which it needs "
+               "Node.js (Debian: nodejs, npm)"));
   }
   return page;
 }
@@ -217,15 +223,17 @@ void write_report(const fs::path& out, const std::string& page, files::OrderedJs
 
 void add_report(Arguments command) {
   const auto options = std::make_shared<ReportOptions>();
-  command.texts("RESULTS", options->results, "Folders that run, check or advise wrote");
+  command.texts("RESULTS", options->results, "Folders that run, check or advise wrote").is_read();
   command
       .texts("--versions", options->versions,
              "The same for folders in which `check` compared versions of libraries")
+      .is_read()
       .once_each();
   command.text("--out", options->out, "The page, .html").required();
   command
       .texts("--scene", options->scenes,
              "Scenes to play: .toml, rigid-ipc's .json, .aabbs, or a campaign's")
+      .is_read()
       .once_each();
   command.text("--narrow", options->narrow, "Narrow phases whose verdicts a scene shows: names")
       .show_default();

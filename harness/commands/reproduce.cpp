@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algorithms/core/isa.h"
+#include "harness/base/data_folder.h"
 #include "harness/base/error.h"
 #include "harness/base/table.h"
 #include "harness/commands/arguments.h"
@@ -16,7 +17,6 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/packed_files.h"
 #include "harness/process/subprocess.h"
-#include "harness/record/build_info.h"
 #include "harness/stats/cell_results.h"
 #include "harness/stats/table_check.h"
 #include "harness/stats/tables/tables.h"
@@ -36,10 +36,10 @@ std::string number_text(double value) {
 // Runs the reference's campaign with this program in a process of its own. Returns the folder.
 std::filesystem::path run_again(const std::filesystem::path& reference,
                                 const ReproduceOptions& options) {
-  const std::filesystem::path source(record::source_folder);
   std::filesystem::path campaign = options.campaign;
   if (campaign.empty()) {
-    campaign = source / "datasets/campaigns" / (stats::read_results(reference).campaign + ".toml");
+    campaign = base::data_folder().path / "datasets/campaigns" /
+               (stats::read_results(reference).campaign + ".toml");
   }
   if (!std::ifstream(campaign)) {
     throw base::InputError(
@@ -102,9 +102,9 @@ int check(const std::filesystem::path& reference, const std::filesystem::path& r
 }
 
 int reproduce(const ReproduceOptions& options) {
-  const std::filesystem::path reference =
-      options.reference.empty() ? std::filesystem::path(record::source_folder) / "results/reference"
-                                : std::filesystem::path(options.reference);
+  const std::filesystem::path reference = options.reference.empty()
+                                              ? base::data_folder().path / "results/reference"
+                                              : std::filesystem::path(options.reference);
   if (!std::filesystem::exists(files::row_file(reference / "ratios.csv"))) {
     throw base::InputError((reference / "ratios.csv").string(), 0,
                            "cannot be read; expected a reference with tables (`touchstone show "
@@ -125,18 +125,22 @@ int reproduce(const ReproduceOptions& options) {
 
 void add_reproduce(Arguments command) {
   auto options = std::make_shared<ReproduceOptions>();
-  command.text("reference", options->reference,
-               "A results folder with tables (default: results/reference in the project)");
-  const Option results = command.text("--results", options->results,
-                                      "Check these results, instead of measuring again");
+  command
+      .text("reference", options->reference,
+            "A results folder with tables (default: results/reference)")
+      .is_read();
+  const Option results =
+      command.text("--results", options->results, "Check these results, instead of measuring again")
+          .is_read();
   command
       .text("--campaign", options->campaign,
             "The campaign to run again (default: the one in datasets/campaigns that has "
             "the name in the reference's raw.csv)")
+      .is_read()
       .excludes(results);
   command
       .text("--out", options->out,
-            "Folder for the campaign run again (default: results/local/reproduce in the project)")
+            "Folder for the campaign run again (default: results/local/reproduce)")
       .excludes(results);
   command.flag("--noisy", options->noisy,
                "Keep the rounds that were measured under noise; they are left out otherwise");

@@ -240,13 +240,17 @@ int look_at(const RobotOptions& options) {
 
 void add_robot(Arguments command) {
   const auto options = std::make_shared<RobotOptions>();
-  command.text("ROBOT", options->robot, "URDF file").required();
-  command.text(
-      "--scene", options->scene,
-      "Bodies around it, which stand still: a scene file, or MoveIt's planning scene (.yaml)");
-  command.text("--srdf", options->srdf, "Default: the file of that ending beside the URDF file");
-  const Option path = command.text("--configurations", options->path,
-                                   "A CSV of joint values, or MoveIt's request (.yaml)");
+  command.text("ROBOT", options->robot, "URDF file").is_read().required();
+  command
+      .text("--scene", options->scene,
+            "Bodies around it, which stand still: a scene file, or MoveIt's planning scene (.yaml)")
+      .is_read();
+  command.text("--srdf", options->srdf, "Default: the file of that ending beside the URDF file")
+      .is_read();
+  const Option path = command
+                          .text("--configurations", options->path,
+                                "A CSV of joint values, or MoveIt's request (.yaml)")
+                          .is_read();
   command.number("--random", options->random, "Configurations at random within the limits")
       .within(1, 1'000'000)
       .show_default()
@@ -266,7 +270,7 @@ void add_robot(Arguments command) {
       .show_default();
   command.text("--out", options->out,
                "Folder for pairs.csv, proposed.srdf and scene.toml (default: "
-               "results/local/robot-NAME in the project)");
+               "results/local/robot-NAME)");
   command.footer(
       "Convex bodies are asked by `certified`, meshes by `fused`. scene.toml is for `run --scene`, "
       "`advise` and `report --scene`.");

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "harness/base/data_folder.h"
 #include "harness/base/error.h"
 #include "harness/base/names.h"
 #include "harness/campaign/plan.h"
@@ -25,7 +26,6 @@
 #include "harness/grade/margins.h"
 #include "harness/kinds/selection.h"
 #include "harness/measure/noise.h"
-#include "harness/record/build_info.h"
 #include "harness/record/machine.h"
 #include "harness/scene/generators/generators.h"
 #include "harness/stats/summary.h"
@@ -80,10 +80,9 @@ void add_peers(const std::string& names, campaign::Campaign& campaign) {
 
 campaign::Campaign campaign_of(const RunOptions& options) {
   if (options.scenes.empty()) {
-    return campaign::read_campaign(options.campaign.empty()
-                                       ? std::filesystem::path(record::source_folder) /
-                                             "datasets/campaigns/standard.toml"
-                                       : std::filesystem::path(options.campaign));
+    return campaign::read_campaign(
+        options.campaign.empty() ? base::data_folder().path / "datasets/campaigns/standard.toml"
+                                 : std::filesystem::path(options.campaign));
   }
   for (const std::string& file : options.scenes) {
     if (!scene::is_scene_of_motion(file)) continue;
@@ -322,10 +321,12 @@ int run(const RunOptions& options, const WholeRun* whole) {
 
 void add_run_options(Arguments command, const WholeRun* whole) {
   auto options = std::make_shared<RunOptions>();
-  const Option campaign = command.text(
-      "campaign", options->campaign, "Campaign file (.toml); without one, the standard comparison");
+  const Option campaign = command
+                              .text("campaign", options->campaign,
+                                    "Campaign file (.toml); without one, the standard comparison")
+                              .is_read();
   command.text("--out", options->out,
-               "Folder for raw.csv and machine.csv (default: results/local/NAME in the project)");
+               "Folder for raw.csv and machine.csv (default: results/local/NAME)");
   const Option resume = command.flag("--resume", options->resume,
                                      "Go on with the run that was stopped in the folder of --out");
   command
@@ -350,6 +351,7 @@ void add_run_options(Arguments command, const WholeRun* whole) {
   const std::string one = "Instead of a campaign file";
   const Option scene =
       command.texts("--scene", options->scenes, "Scene files: .toml, rigid-ipc's .json, .aabbs")
+          .is_read()
           .excludes(campaign)
           .group(one);
   const auto add = [&](Option option) { option.needs(scene).group(one); };

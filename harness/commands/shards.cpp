@@ -50,6 +50,7 @@ void add_shards_plan(Arguments command) {
   const auto options = std::make_shared<PlanOptions>();
   command
       .text("campaign", options->campaign, "A campaign, or a file with a table [trade] or [check]")
+      .is_read()
       .required();
   command.number("--shards", options->setting.shards, "Number of shards")
       .within(1, 10'000'000)

@@ -1,6 +1,7 @@
 // Options, results folders and choices of algorithms.
 #include "harness/commands/shared_options.h"
 
+#include "harness/base/data_folder.h"
 #include "harness/base/enumerators.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include "harness/base/names.h"
 #include "harness/commands/commands.h"
 #include "harness/files/text_file.h"
-#include "harness/record/build_info.h"
 #include "harness/record/folder_files.h"
 
 namespace touchstone::commands {
@@ -106,7 +106,9 @@ std::filesystem::path results_folder(const std::string& out, const std::string& 
   const std::string fault = base::name_fault(name);
   if (!fault.empty()) throw base::InputError("the name of the work: " + fault);
   if (!out.empty()) return out;
-  return std::filesystem::path(record::source_folder) / "results/local" / (prefix + name);
+  const base::DataFolder& data = base::data_folder();
+  const std::filesystem::path above = data.is_installed ? std::filesystem::path() : data.path;
+  return above / "results/local" / (prefix + name);
 }
 
 void keep_summary(const std::filesystem::path& folder, const std::string& text) {

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/base/data_folder.h"
 #include "harness/base/error.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
@@ -21,7 +22,6 @@
 #include "harness/files/packed_files.h"
 #include "harness/files/text_file.h"
 #include "harness/process/subprocess.h"
-#include "harness/record/build_info.h"
 
 namespace touchstone::commands {
 namespace {
@@ -52,7 +52,7 @@ int print_kept(const ShowOptions& options, ShowRows show_rows) {
 
 // Becomes plots/plot.py, which draws all figures as files and names them on the screen.
 [[noreturn]] void draw_figures(const ShowOptions& options) {
-  const std::filesystem::path plots = std::filesystem::path(record::source_folder) / "plots";
+  const std::filesystem::path plots = base::data_folder().path / "plots";
   const std::string python = (plots / "python").string();
   if (process::run_and_wait(python, {"-c", ""}, "/dev/null") != 0) {
     throw base::InputError(
@@ -86,7 +86,7 @@ int show(const ShowOptions& options, ShowRows show_rows) {
 
 void add_show_options(Arguments command, ShowRows show_rows) {
   auto options = std::make_shared<ShowOptions>();
-  command.text("results", options->results, "Results folder, or its raw.csv").required();
+  command.text("results", options->results, "Results folder, or its raw.csv").is_read().required();
   const Option tables =
       command.flag("--tables", options->tables, "Write its tables, beside the rows");
   command.flag("--figures", options->figures, "Draw its figures, as SVG, PDF and PNG");

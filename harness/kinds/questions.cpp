@@ -113,7 +113,7 @@ const QueryOption tolerance = {"--tolerance", Value::positive,
 const QueryOption max_iterations = {"--max-iterations", Value::count,
                                     "Greatest number of iterations of each loop of a query"};
 const QueryOption target = {
-    "--in", Value::text,
+    "--in", Value::file,
     "The mesh (OBJ, OFF, STL or PLY; a face of more corners becomes a fan of triangles around its "
     "first, which is "
     "right for convex faces), or for rays also the scene (TOML, or rigid-ipc's JSON)"};

@@ -29,6 +29,7 @@ struct QueryOption {
   enum class Value : std::uint8_t {
     flag,
     text,
+    file,  // one that is read
     list,  // words, joined by commas in QuestionInput
     choice,
     positive,      // a number

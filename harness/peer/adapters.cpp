@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
+#include "harness/base/data_folder.h"
 #include "harness/base/error.h"
 #include "harness/files/toml_table.h"
-#include "harness/record/build_info.h"
 
 namespace touchstone::peer {
 namespace {
@@ -82,7 +82,7 @@ std::vector<Adapter> adapters() {
   std::vector<Adapter> all;
   std::error_code ignored;
   for (const auto& entry :
-       fs::directory_iterator(fs::path(record::source_folder) / "datasets/adapters", ignored)) {
+       fs::directory_iterator(base::data_folder().path / "datasets/adapters", ignored)) {
     if (fs::exists(entry.path() / "peer.toml")) all.push_back(read_adapter(entry.path()));
   }
   std::ranges::sort(all, {}, &Adapter::name);

@@ -239,7 +239,7 @@ files::OrderedJson all_offers() {
 files::OrderedJson hello_of_this(std::string_view name) {
   return {{"protocol", protocol_version},
           {"name", name},
-          {"version", record::build_facts[0].second},
+          {"version", record::version},
           {"kinds", all_offers()}};
 }
 

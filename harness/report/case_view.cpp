@@ -5,6 +5,7 @@
 
 #include "algorithms/oracle/answer.h"
 #include "algorithms/registry.h"
+#include "harness/base/data_folder.h"
 #include "harness/base/names.h"
 #include "harness/geometry/concave_bodies.h"
 #include "harness/grade/graded_answer.h"
@@ -13,7 +14,6 @@
 #include "harness/measure/narrow_choice.h"
 #include "harness/process/isolate.h"
 #include "harness/process/solve_case.h"
-#include "harness/record/build_info.h"
 #include "harness/report/body_view.h"
 
 namespace touchstone::report {
@@ -130,7 +130,7 @@ void ask(const NarrowPhaseEntry& entry, Precision scalar, double time_limit,
 // Returns the path from the project's folder, where commands are given, if it is below that.
 std::string from_project(const std::filesystem::path& file) {
   const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
-  const std::filesystem::path inside = whole.lexically_relative(record::source_folder);
+  const std::filesystem::path inside = whole.lexically_relative(base::data_folder().path);
   return inside.empty() || inside.begin()->string() == ".." ? whole.string() : inside.string();
 }
 

@@ -8,12 +8,12 @@
 #include <system_error>
 #include <thread>
 
+#include "harness/base/data_folder.h"
 #include "harness/base/error.h"
 #include "harness/base/hash.h"
 #include "harness/base/input_file.h"
 #include "harness/base/names.h"
 #include "harness/files/text_file.h"
-#include "harness/record/build_info.h"
 #include "harness/record/machine.h"
 
 namespace touchstone::shards {
@@ -220,8 +220,7 @@ void write_scripts(const ShardPlan& plan, const Work& work, int cpus) {
   add("MINUTES", std::to_string(time_limit(plan, work, cpus)));
   add("CPUS", cpus > 0 ? std::to_string(cpus) : "");
   files::write_text(plan.folder / "plan.sh", text);
-  const std::filesystem::path scripts =
-      std::filesystem::path(record::source_folder) / "harness/shards";
+  const std::filesystem::path scripts = base::data_folder().path / "harness/shards";
   for (const char* name : {"slurm.sh", "parallel.sh"}) {
     files::write_text(plan.folder / name, files::read_text(scripts / name));
     std::filesystem::permissions(plan.folder / name,

@@ -54,14 +54,16 @@ struct InDouble<ContactManifold> {
 };
 
 // Loads the module of the program's own build. It lies beside the program; from a test program, in
-// the folder of the program. Throws std::runtime_error if it is missing or does not load.
+// the folder of the program; of an installation, in ../lib/touchstone. Throws std::runtime_error if it is missing or does not load.
 inline void* load_double(const char* symbol) {
   const auto fail = [](const std::string& why) {
     throw std::runtime_error("Bullet's double build: " + why);
   };
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   std::filesystem::path file = folder / module_name;
-  if (!std::filesystem::exists(file)) file = folder.parent_path() / "harness" / module_name;
+  for (const char* const other : {"harness", "lib/touchstone"}) {
+    if (!std::filesystem::exists(file)) file = folder.parent_path() / other / module_name;
+  }
   if (!std::filesystem::exists(file)) fail((folder / module_name).string() + " is missing");
   void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
   if (module == nullptr) fail(dlerror());

@@ -105,6 +105,7 @@ void describe(const DescribeOptions& options) {
 std::shared_ptr<DescribeOptions> described(Arguments& command) {
   auto options = std::make_shared<DescribeOptions>();
   command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, .urdf or .aabbs")
+      .is_read()
       .required();
   command.number("--frames", options->overrides.frames, "Instead of the scene's own")
       .within(1, 1'000'000);

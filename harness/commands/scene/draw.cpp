@@ -134,6 +134,7 @@ void draw(const DrawOptions& options) {
 void add_scene_draw(Arguments command) {
   auto options = std::make_shared<DrawOptions>();
   command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, .urdf or .aabbs")
+      .is_read()
       .required();
   command.text("--out", options->out, "The picture, .png")
       .required()

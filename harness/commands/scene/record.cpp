@@ -104,6 +104,7 @@ void record(const RecordOptions& options) {
 void add_scene_record(Arguments command) {
   const auto options = std::make_shared<RecordOptions>();
   command.text("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc), .urdf or .aabbs")
+      .is_read()
       .required();
   command
       .text("--out", options->out,

@@ -185,7 +185,9 @@ bool run(const RepresentOptions& options) {
 
 void add_scene_represent(Arguments command) {
   auto options = std::make_shared<RepresentOptions>();
-  command.text("scene", options->scene, "Scene file: .toml, .urdf or rigid-ipc's .json").required();
+  command.text("scene", options->scene, "Scene file: .toml, .urdf or rigid-ipc's .json")
+      .is_read()
+      .required();
   command
       .texts("--forms", options->forms,
              "Of: as-given, sphere, box, oriented-box, dop-14, dop-18, dop-26, capsule, hull-K "
