@@ -3,13 +3,15 @@
 
     python3 datasets/make_scenes.py
 
-brick_wall.toml, rock_pile.toml, crowd.toml, arch.toml, chain_net.toml and chain/*.obj: the same files each time, from
+brick_wall.toml, rock_pile.toml, crowd.toml, arch.toml, chain_net.toml, chain/*.obj, simulated/wall.toml and, from
+home.toml, simulated/home.toml: the same files each time, from
 Python's standard library alone.
 """
 import itertools
 import math
 import pathlib
 import random
+import re
 
 HERE = pathlib.Path(__file__).resolve().parent
 FRAMES = 17
@@ -96,7 +98,7 @@ def write_scene(name, words, bodies, shapes=()):
     with open(HERE / f"{name}.toml", "w", encoding="utf-8", newline="\n") as file:
         file.write("".join(f"# {line}\n" for line in words + ["Made by make_scenes.py."]))
         meshes = 'meshes = "hull"\n' if any("mesh = " in body for body in bodies) else ""
-        file.write(f'name = "{name}"\n{meshes}frames = {FRAMES}\ntime_step = {STEP!r}\n\n')
+        file.write(f'name = "{name.split("/")[-1]}"\n{meshes}frames = {FRAMES}\ntime_step = {STEP!r}\n\n')
         file.write("body = [\n" + "".join(bodies) + "]\n")
         for key, vertices in shapes:
             rows = ", ".join(vector(v) for v in vertices)
@@ -346,7 +348,7 @@ def make_chain_net(nodes=10):
                               "Each ring is ten convex bodies."], bodies)
 
 
-def make_brick_wall(courses=16, bricks=12):
+def make_brick_wall(name, words, moving, others=(), courses=16, bricks=12):
     """Sizes are binary fractions, so that faces touch exactly."""
     length, width, height = 0.25, 0.125, 0.0625
     bodies = [body('shape = {type = "halfspace", normal = [0, 0, 1], offset = 0}', (0, 0, 0), moving=False)]
@@ -356,15 +358,39 @@ def make_brick_wall(courses=16, bricks=12):
         x = 0
         for size in sizes:
             shape = f'shape = {{type = "box", half_extents = {vector((size / 2, width / 2, height / 2))}}}'
-            bodies.append(body(shape, (x + size / 2, 0, (course + 0.5) * height), moving=False))
+            bodies.append(body(shape, (x + size / 2, 0, (course + 0.5) * height), moving=moving))
             x += size
-    write_scene("brick_wall", [f"A wall of {courses} courses of bricks on the ground, each brick half over the next, at rest:",
-                               "faces touch exactly."], bodies)
+    write_scene(name, [f"A wall of {courses} courses of bricks on the ground, each brick half over the next, {words[0]}:", *words[1:]],
+                bodies + list(others))
+
+
+# --- home ------------------------------------------------------------------------------------------
+
+def make_shaken_home(speed=1.0, spin=1.0):
+    """Walls, floor and doors stay; each piece of furniture is one body."""
+    rng = random.Random(1)
+    lines = (HERE / "home.toml").read_text(encoding="utf-8").split("\n")
+    first = next(i for i, line in enumerate(lines) if line.endswith("Living room."))
+    last = lines.index("]")
+    for i, line in enumerate(lines[:last]):
+        if i < first and 'shape = "door"' in line and "moving" not in line:
+            lines[i] = re.sub(r"angular_velocity = \[[^]]*\]", "moving = false", line)
+        elif i >= first and line.startswith("  {"):
+            kept = re.sub(r", (parts = true|moving = false|(angular_)?velocity = \[[^]]*\])", "", line.removesuffix("},"))
+            pushed = [vector([rng.uniform(-most, most) for _ in range(3)]) for most in (speed, spin)]
+            lines[i] = f"{kept}, velocity = {pushed[0]}, angular_velocity = {pushed[1]}}},".replace("home/", "../home/")
+    head = ["# The furnished flat of home.toml, in which each piece is one body that was pushed: for `touchstone scene simulate`.",
+            "# Made by make_scenes.py.", 'name = "home"', 'meshes = "compound"', ""]
+    text = "\n".join(head + lines[lines.index("body = ["):])
+    (HERE / "simulated/home.toml").write_text(text, encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":
-    make_brick_wall()
+    make_brick_wall("brick_wall", ["at rest", "faces touch exactly."], False)
+    ball = body('shape = {type = "sphere", radius = 0.2}', (1.5, -3, 0.6), velocity=(0, 15, 1))
+    make_brick_wall("simulated/wall", ["before a ball hits it", "for `touchstone scene simulate`."], True, [ball])
     make_rock_pile()
     make_crowd()
     make_arch()
     make_chain_net()
+    make_shaken_home()

@@ -60,7 +60,10 @@ class BodyReader {
 
   // Returns the line of each body.
   std::vector<std::int64_t> read() {
-    if (table_.has("shapes")) {
+    // Beside a generator it may be the list of that.
+    const bool are_generated = table_.contains("generator") && table_.contains("shapes") &&
+                               table_.node("shapes")->is_array();
+    if (!are_generated && table_.has("shapes")) {
       files::TomlTable named = table_.inside("shapes", "shapes");
       for (const std::string& name : named.keys()) {
         files::TomlTable shape = named.inside(name, "shapes." + name);

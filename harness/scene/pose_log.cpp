@@ -185,4 +185,17 @@ int write_pose_log(const Scene& scene, const std::filesystem::path& file) {
   return scene.frames;
 }
 
+PoseLogWriter::PoseLogWriter(const std::filesystem::path& file)
+    : csv_(file, {log_columns().begin(),
+                  log_columns().begin() + std::ptrdiff_t{log_first + quaternion_numbers}}) {}
+
+void PoseLogWriter::add(int frame, std::span<const LoggedPose> poses) {
+  for (const LoggedPose& pose : poses) {
+    csv_.field(frame).field(std::size_t{pose.body});
+    for (const float x : pose.translation) csv_.field(fmt::format("{}", x));
+    for (const float x : pose.quaternion_wxyz) csv_.field(fmt::format("{}", x));
+    csv_.end_row();
+  }
+}
+
 }  // namespace touchstone::scene

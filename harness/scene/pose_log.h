@@ -1,8 +1,12 @@
 // Logs of a simulator: where bodies are in each frame, as CSV.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 
+#include "harness/files/csv.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone::scene {
@@ -15,5 +19,25 @@ void read_pose_log(const std::filesystem::path& file, Scene& scene);
 
 // Writes such a file, as matrices, of all frames of the scene and the bodies that may move. Returns the number of frames.
 int write_pose_log(const Scene& scene, const std::filesystem::path& file);
+
+// A row of a log as a simulator has it.
+struct LoggedPose {
+  std::uint32_t body = 0;
+  std::array<float, 3> translation = {};  // metres
+  std::array<float, 4> quaternion_wxyz = {};
+
+  bool operator==(const LoggedPose&) const = default;
+};
+
+// Writes such a file frame by frame, with quaternions. Frame 0 has every body that moves, a later one those that moved.
+class PoseLogWriter {
+ public:
+  explicit PoseLogWriter(const std::filesystem::path& file);
+  void add(int frame, std::span<const LoggedPose> poses);
+  void close() { csv_.close(); }
+
+ private:
+  files::CsvWriter csv_;
+};
 
 }  // namespace touchstone::scene

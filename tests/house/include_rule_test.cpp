@@ -261,6 +261,8 @@ TEST(IncludeRule, OnlyPeersIncludeTheLibrariesThatWeCompareWith) {
     for (const std::string& to : file.own) {
       if (of_header.contains(to)) libraries.insert(of_header[to].begin(), of_header[to].end());
     }
+    // Makes scenes by one of them, and compares nothing.
+    if (in(file.path, "harness/simulate")) libraries.erase("bullet");
     if (!in(file.path, "algorithms/peers")) {
       EXPECT_THAT(libraries, testing::IsEmpty()) << file.path;
     }

@@ -166,6 +166,16 @@ TEST_F(SceneFile, ImportsRecordings) {
   EXPECT_THAT(fault(imported, {.seed = 5}), HasSubstr("seed"));
 }
 
+// `shapes` is the generator's list, or the table of what bodies name.
+TEST_F(SceneFile, ListsBodiesBesideAGeneratorWithShapes) {
+  const scene::Scene scene = load(
+      "generator = \"uniform\"\ncount = 20\nshapes = [\"sphere\", {type = \"hull\", points = "
+      "9}]\n[[body]]\nshape = {type = \"box\", half_extents = [1, 2, 3]}\n");
+  ASSERT_EQ(scene.bodies.size(), 21u);
+  EXPECT_EQ(scene.shapes[scene.bodies[0].shape].kind, ShapeKind::box);
+  EXPECT_NE(scene.shapes[scene.bodies[20].shape].kind, ShapeKind::box);
+}
+
 TEST_F(SceneFile, OverridesReplaceWhatTheFileSays) {
   const std::string generated = "generator = \"uniform\"\ncount = 20\nseed = 3\nframes = 2\n";
   EXPECT_EQ(load(generated, {.count = 50}).bodies.size(), 50u);
