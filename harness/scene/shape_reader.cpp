@@ -141,9 +141,9 @@ TurnedShape ShapeReader::read_mesh(files::TomlTable& table) {
 }
 
 // The vertices are rounded to floats at their scale, so that all libraries get the same body.
-TurnedShape ShapeReader::read_made(files::TomlTable& table, std::string_view type) const {
+TurnedShape ShapeReader::read_made(files::TomlTable& table, std::string_view type) {
   geometry::Mesh mesh = made_mesh(table, type, [&](std::string_view key, std::string_view what) {
-    return existing_file(table, key, what);
+    return height_files_.emplace_back(existing_file(table, key, what));
   });
   const Vec3d scale = read_scale(table);
   for (Vec3d& v : mesh.vertices) {
@@ -209,7 +209,7 @@ const std::vector<MeshPart>& ShapeReader::read_parts(files::TomlTable& table) {
 }
 
 std::vector<std::filesystem::path> ShapeReader::files() const {
-  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> files = height_files_;
   for (const auto& [key, shape] : meshes_) files.emplace_back(std::get<0>(key));
   for (const auto& [key, parts] : parts_) files.emplace_back(std::get<0>(key));
   return files;

@@ -62,7 +62,7 @@ class ShapeReader {
   // What the table's mesh is.
   MeshUse use_of(files::TomlTable& table, MeshUse fallback = MeshUse::surface) const;
 
-  // The mesh files that were read.
+  // The files of meshes and height fields that were read.
   std::vector<std::filesystem::path> files() const;
 
   // The file named by the key, or by one of its texts; it must exist.
@@ -75,7 +75,7 @@ class ShapeReader {
   using MeshKey = std::tuple<std::string, double, double, double, MeshUse>;
 
   TurnedShape read_mesh(files::TomlTable& table);
-  TurnedShape read_made(files::TomlTable& table, std::string_view type) const;
+  TurnedShape read_made(files::TomlTable& table, std::string_view type);
   TurnedShape read_compound(files::TomlTable& table);
   void add_parts(files::TomlTable& table, std::vector<Pose>& around, ConcaveBody& compound);
   MeshKey mesh_key(files::TomlTable& table) const;
@@ -86,6 +86,7 @@ class ShapeReader {
   // Each mesh, scale and use is read once and shared.
   std::map<MeshKey, ConcaveShape> meshes_;
   std::map<MeshKey, std::vector<MeshPart>> parts_;
+  std::vector<std::filesystem::path> height_files_;
 };
 
 }  // namespace touchstone::scene

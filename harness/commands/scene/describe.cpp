@@ -14,6 +14,7 @@
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
+#include "harness/report/pair_mix.h"
 #include "harness/scene/player.h"
 #include "harness/scene/scene.h"
 
@@ -75,6 +76,32 @@ std::size_t overlaps_of(std::span<const Aabb> boxes) {
   return sink.gather().size();
 }
 
+std::string percent(std::size_t part, std::size_t of) {
+  return fmt::format("{:.3g} %", 100 * static_cast<double>(part) / static_cast<double>(of));
+}
+
+void print_mix(const report::PairMix& mix) {
+  if (mix.after_first > 0) {
+    fmt::print("Pairs of boxes that overlapped in the frame before too: {}\n",
+               percent(mix.again, mix.after_first));
+  }
+  if (mix.known() > 0) {
+    fmt::print("\nOf {} pairs of convex bodies whose boxes overlap, in {} frame{}:\n\n",
+               mix.known(), mix.frames, mix.frames == 1 ? "" : "s");
+    base::Table moves({"resting", "sliding", "free"});
+    moves.add({percent(mix.resting, mix.known()), percent(mix.sliding, mix.known()),
+               percent(mix.apart, mix.known())});
+    base::Table gaps({"gap, of the smaller body", "pairs"});
+    for (std::size_t i = 0; i < mix.gaps.size(); ++i)
+      gaps.add({std::string(report::gap_ranges[i]), percent(mix.gaps[i], mix.known())});
+    fmt::print("{}\n{}", moves.text(base::page_width()), gaps.text(base::page_width()));
+  }
+  if (mix.not_convex > 0) {
+    fmt::print("{} pairs with a body that is not convex are not among them\n", mix.not_convex);
+  }
+  if (mix.unknown > 0) fmt::print("Of {} pairs the gap is not known\n", mix.unknown);
+}
+
 void describe(const DescribeOptions& options) {
   const scene::Scene scene = scene::load_scene(options.scene, options.overrides);
   scene::ScenePlayer player(scene, scene::BoxKind::tight);
@@ -99,6 +126,7 @@ void describe(const DescribeOptions& options) {
     fmt::print("Boxes that change from a frame to the next: {:.3g} % of all\n",
                100 * static_cast<double>(moved) / (bodies * player.frame()));
   }
+  if (scene.recording.empty()) print_mix(report::pair_mix(scene));
 }
 
 // Adds the options of a scene.
@@ -117,7 +145,12 @@ std::shared_ptr<DescribeOptions> described(Arguments& command) {
 
 void add_scene_describe(Arguments command) {
   const auto options = described(command);
-  command.footer("Sizes are the longest edges of the bodies' boxes in frame 0.");
+  command.footer(
+      "Sizes are the longest edges of the bodies' boxes in frame 0. Gaps are those of up to 24 "
+      "frames. Up to a hundredth of "
+      "the smaller body's longest edge apart, bodies are in contact: they rest if they move by "
+      "less than a thousandth of it "
+      "against each other until the next frame, and else slide. Others are free.");
   command.job([options] {
     describe(*options);
     return exit_done;

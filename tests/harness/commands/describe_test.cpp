@@ -36,6 +36,10 @@ TEST_F(Describe, SaysWhatAScenesBodiesAre) {
   EXPECT_THAT(ran.text, ContainsRegex("all +4 +2 +0.5 +2 +4\n"));
   EXPECT_THAT(ran.text, HasSubstr("overlap in frame 0: 1, or 0.25 a body\n"));
   EXPECT_THAT(ran.text, HasSubstr("from a frame to the next: 25 % of all\n"));
+  EXPECT_THAT(ran.text, HasSubstr("overlapped in the frame before too: 100 %\n"));
+  EXPECT_THAT(ran.text, HasSubstr("Of 2 pairs of convex bodies whose boxes overlap, in 2 frames:"));
+  EXPECT_THAT(ran.text, ContainsRegex("resting +sliding +free\n-+\n0 % +100 % +0 %\n"));
+  EXPECT_THAT(ran.text, ContainsRegex("deeper than 10 % +100 %\n"));
   expect_refusal("scene describe " + path("none.toml"), "none.toml", folder_);
 }
 
