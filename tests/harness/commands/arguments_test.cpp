@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/base/data_folder.h"
 #include "harness/commands/commands.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace touchstone {
 namespace {
@@ -27,6 +29,7 @@ class TheCommandLine : public testing::Test {
     command.numbers("--layers", layers_, "Layers").within(1, 5);
     command.one_of("--colour", colour_, colours, "The colour");
     command.some_of("--colours", some_, colours, "Colours").excludes(command.option("--colour"));
+    command.text("--read", read_, "A file that is read").is_read();
     command.text("--alone", alone_, "Stands alone");
     command.exclude_others("--alone");
     command.job([this, command] {
@@ -44,7 +47,7 @@ class TheCommandLine : public testing::Test {
   }
 
   commands::CommandLine line_{"A program"};
-  std::string file_, alone_, shell_line_, error_;
+  std::string file_, read_, alone_, shell_line_, error_;
   std::vector<std::string> names_;
   bool wet_ = false;
   int count_ = 2;
@@ -54,6 +57,17 @@ class TheCommandLine : public testing::Test {
   Colour colour_ = Colour::red;
   std::vector<Colour> some_ = {Colour::red};
 };
+
+TEST_F(TheCommandLine, TakesWhatIsNotHereFromTheDataFolder) {
+  const TemporaryFolder here;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(here.path());
+  EXPECT_EQ(run({"wall", "--read", "datasets/city.toml"}), 7);
+  EXPECT_EQ(read_, (base::data_folder().path / "datasets/city.toml").string());
+  EXPECT_EQ(run({"wall", "--read", "datasets/none.toml"}), 7);
+  EXPECT_EQ(read_, "datasets/none.toml");
+  std::filesystem::current_path(before);
+}
 
 TEST_F(TheCommandLine, ReadsEveryKindOfOption) {
   EXPECT_EQ(run({"wall", "--names", "a,b", "--wet", "--count", "3", "--size", "0.5", "--limit", "0",

@@ -74,9 +74,8 @@ def complete(program, words):
     script = os.path.join(os.path.dirname(program), "../share/bash-completion/completions/touchstone")
     line = " ".join(["touchstone", *words])
     text = f"""source /usr/share/bash-completion/bash_completion; source '{script}'
-      PATH={os.path.dirname(program)}:$PATH COMP_WORDS=(touchstone {" ".join(words) or "''"})
-      [[ '{line}' != *' ' ]] || COMP_WORDS+=('')
-      COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)) COMP_LINE='{line}' COMP_POINT={len(line)}
+      PATH='{os.path.dirname(program)}':$PATH
+      COMP_WORDS=({line}) COMP_CWORD={len(words)} COMP_LINE='{line}' COMP_POINT={len(line)}
       _touchstone touchstone; printf '%s\\n' "${{COMPREPLY[@]}}" """
     return subprocess.run(["bash", "-c", text], capture_output=True, text=True).stdout.split()
 
@@ -113,7 +112,7 @@ def check_commands(installed):
     run("scene describe datasets/rock_pile.toml", holds=["bodies"])
     run("robot datasets/robots/arm.urdf --random 20 --out arm", holds=["arm/pairs.csv"])
     run("run datasets/campaigns/reference.toml --dry-run")
-    run("run --scene datasets/shapes.toml --frames 2 --count 30 --seconds 0.01 --broad naive --narrow certified --task intersect",
+    run("run --scene datasets/shapes.toml --frames 2 --seconds 0.01 --broad naive --narrow certified --task intersect",
         holds=["results/local/command-line"])
     installed.has("results/local/command-line/raw.csv")
     installed.has("results/local/command-line/machine.csv")

@@ -174,6 +174,12 @@ TEST_F(Launcher, BuildsTheSecondProgramWhereTheFirstHandsOver) {
   EXPECT_THAT(standard.text, HasSubstr(path("tree/touchstone") + "\n"));
 }
 
+TEST_F(Launcher, LetsTheFirstProgramPrintTheVersion) {
+  const Launched version = launch("--version");
+  EXPECT_EQ(version.asked, first);
+  EXPECT_EQ(version.ran, "touchstone --version");
+}
+
 TEST_F(Launcher, HelpsWithoutBuilding) {
   const std::string line =
       "cd / && LOG=" + path("") + " PATH=/usr/bin:/bin " + path("tree/touchstone") + " ";
