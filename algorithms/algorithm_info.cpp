@@ -8,6 +8,7 @@ std::string_view to_string(Origin origin) {
     case Origin::ours: return "ours";
     case Origin::peer: return "peer";
     case Origin::oracle: return "oracle";
+    case Origin::module: return "module";
   }
   return "?";
 }

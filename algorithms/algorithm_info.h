@@ -8,9 +8,16 @@
 
 namespace touchstone {
 
-enum class Origin : std::uint8_t { ours, peer, oracle };
+// A module is a shared object of somebody's, loaded at run time (module/touchstone_module.h).
+enum class Origin : std::uint8_t { ours, peer, oracle, module };
 
 std::string_view to_string(Origin origin);
+
+// True where `ok` is the author's word, so that a wrong answer fails the command: of ours and of modules. A library's
+// wrong answers are told, and fail nothing.
+constexpr bool is_answerable(Origin origin) {
+  return origin == Origin::ours || origin == Origin::module;
+}
 
 struct AlgorithmInfo {
   std::string name;  // name on the command line: lower case, words joined by '-'

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "algorithms/broad_phase.h"
@@ -87,12 +88,16 @@ std::span<const Entry> entries();
 // False in the first program, which lists only what the standard comparison measures.
 bool is_whole();
 
-// Adds an entry behind those of the list, such as a program behind a pipe, whose time is no algorithm's. Its name is of
-// no entry of any kind yet. Spans that `entries` returned before lack it. At most `most_added` of a kind; throws
-// std::length_error beyond.
+// Whether the time of what is added is an algorithm's. That of a program behind a pipe is not.
+enum class Timed : bool { no, yes };
+// Adds an entry behind those of the list. Its name is of no entry of its kind yet; one that is not timed is of no entry
+// of any kind. Spans that `entries` returned before lack it. At most `most_added` of a kind; throws std::length_error
+// beyond. Of a module's, whose name no entry of another file has, `file` is the file.
 inline constexpr std::size_t most_added = 64;
 template <class Entry>
-void add_untimed(Entry entry);
+void add(Entry entry, Timed timed, const std::string& file = {});
+// The file of the module that has this algorithm; empty if none has.
+std::string module_of(const AlgorithmInfo& info);
 
 // Returns null if no entry has that name.
 template <class Entry>
@@ -105,7 +110,7 @@ const Entry* find(std::string_view name) {
 }  // namespace registry
 
 inline bool is_built(const AlgorithmInfo& info) { return info.reason.empty(); }
-// False for those of add_untimed: they are graded, and in no table of times.
+// False for those that were added as such: they are graded, and in no table of times.
 bool is_timed(const AlgorithmInfo& info);
 bool offers(const NarrowPhaseEntry& entry, Task task);
 bool offers(const NarrowPhaseEntry& entry, Precision scalar);

@@ -69,9 +69,9 @@ std::vector<record::RawRow> BlockRows::of_reply(const measure::Round& round,
   row.part_pairs = reply.part_pairs;
   row.iterations = reply.iterations;
   row.support_calls = reply.support_calls;
-  const bool is_ours = schedule_.candidates[sample.contestant].info().origin == Origin::ours;
+  const bool is_word = is_answerable(schedule_.candidates[sample.contestant].info().origin);
   row.status = gave_up   ? record::RowStatus::not_converged
-               : is_ours ? record::RowStatus::ok
+               : is_word ? record::RowStatus::ok
                          : record::RowStatus::not_reported;
   return rows;
 }

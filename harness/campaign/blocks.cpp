@@ -123,7 +123,7 @@ record::Departure RunContext::departure(const AlgorithmInfo& info, std::string l
   return {.block = number,
           .row = -1,
           .algorithm = std::move(label),
-          .ours = info.origin == Origin::ours,
+          .ours = is_answerable(info.origin),
           .known = !info.known_defect.empty(),
           .where = std::move(where),
           .what = "",

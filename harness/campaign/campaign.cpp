@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "harness/base/hash.h"
+#include "harness/modules/modules.h"
 #include "harness/record/machine.h"
 #include "harness/record/raw_row.h"
 
@@ -130,6 +131,7 @@ std::vector<std::pair<std::string, std::string>> campaign_identity(
                                                             {"seed", std::to_string(campaign.seed)},
                                                             {"campaign_hash", base::to_hex(hash)}};
   facts.emplace_back("program", record::hash_of_program());
+  for (auto& fact : modules::facts()) facts.push_back(std::move(fact));
   for (const auto& [name, value] : scene_hashes) facts.emplace_back("scene " + name, value);
   return facts;
 }

@@ -33,7 +33,7 @@ Task number_of(record::QueryTask task) {
 
 Status status_of(const grade::OutcomeFaults& faults, Origin origin) {
   if (faults.failed > 0) return Status::not_converged;
-  return origin == Origin::ours ? Status::ok : Status::not_reported;
+  return is_answerable(origin) ? Status::ok : Status::not_reported;
 }
 
 }  // namespace

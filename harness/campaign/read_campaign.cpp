@@ -11,6 +11,7 @@
 
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
+#include "harness/modules/modules.h"
 
 namespace touchstone::campaign {
 namespace {
@@ -73,7 +74,8 @@ class Settings {
 template <class Entry>
 std::vector<const Entry*> algorithms(Settings& settings, const std::string& key,
                                      std::span<const Entry> entries,
-                                     const std::vector<std::string>& usual = {"ours", "peers"}) {
+                                     const std::vector<std::string>& usual = {"ours", "peers",
+                                                                              "modules"}) {
   const std::vector<std::string> names = settings.texts(key, usual);
   try {
     return kinds::select(entries, names, key == "mid_phases" ? "mid-phase" : key + " phase");
@@ -297,6 +299,8 @@ Campaign read_campaign(const std::filesystem::path& file, const std::filesystem:
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 1));
   campaign.published = stats::read_published(table);
   const std::filesystem::path folder = home.empty() ? file.parent_path() : home;
+  for (const std::string& module_file : table.texts("modules", {}))
+    modules::load(folder / module_file);
   const toml::table nothing;
   files::TomlTable empty(nothing, file.string(), "");
   if (table.has("group")) {

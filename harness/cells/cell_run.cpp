@@ -121,13 +121,14 @@ class CellRun {
   }
 
   void note(const stats::GradeRow& row) {
-    result_.ours_wrong |=
-        row.origin == "ours" && !row.approximate && (!row.is_right() || row.status == "crashed");
+    result_.ours_wrong |= (row.origin == "ours" || row.origin == "module") && !row.approximate &&
+                          (!row.is_right() || row.status == "crashed");
   }
   // A crash or another answer of ours in a sample is as wrong as one that was graded.
   void note(const record::RawRow& row) {
-    result_.ours_wrong |= row.origin == record::RowOrigin::ours &&
-                          (row.wrong() || row.status == record::RowStatus::crashed);
+    result_.ours_wrong |=
+        (row.origin == record::RowOrigin::ours || row.origin == record::RowOrigin::module) &&
+        (row.wrong() || row.status == record::RowStatus::crashed);
   }
   // Notes what a run did that was stopped.
   void take_over() {

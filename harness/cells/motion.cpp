@@ -68,8 +68,8 @@ std::vector<kinds::PlannedSet> motion_cells(files::TomlTable& table,
   request.threads = whole_numbers(table, "threads", 1024, 1);
   request.broad = kinds::selected(table, registry::entries<BroadPhaseEntry>(), "broad phase",
                                   "broad", {"packed-rtree"});
-  request.casts =
-      chains(table, "casts", {"ours", "peers"}, registry::entries<CastEntry>(), cast_chain, "cast");
+  request.casts = chains(table, "casts", {"ours", "peers", "modules"},
+                         registry::entries<CastEntry>(), cast_chain, "cast");
   if (table.contains("substeps")) request.substeps = whole_numbers(table, "substeps", 1'000'000, 1);
   request.narrow = chains(table, "narrow", {"closed-form+gjk"},
                           registry::entries<NarrowPhaseEntry>(), narrow_chain, "narrow phase");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 #include "harness/record/machine.h"
@@ -23,21 +24,40 @@ std::string listed(const std::vector<std::string>& lines, std::string_view mark,
   return text;
 }
 
+bool asks(const CheckReport& report, Origin origin) {
+  return std::ranges::any_of(report.request->contestants, [&](const kinds::Contestant& one) {
+    return one.info->origin == origin;
+  });
+}
+
+// Those that are held to their word.
+std::string answerable(const CheckReport& report) {
+  if (!asks(report, Origin::module)) return "our own algorithms";
+  return asks(report, Origin::ours) ? "our own algorithms and the modules'"
+                                    : "the modules' algorithms";
+}
+
 // Whether ours are wrong along axes.
 std::string promise(const CheckReport& report) {
   if (std::ranges::none_of(report.request->contestants, &kinds::Contestant::promised)) return "";
   const std::vector<std::string> broken = report.ours_wrong();
   if (broken.empty()) {
-    return "In double, none of our own algorithms is silently wrong, crashes or hangs.\n";
+    return fmt::format("In double, none of {} is silently wrong, crashes or hangs.\n",
+                       answerable(report));
   }
-  return "In double, of our own algorithms:\n\n" + listed(broken, "- ", page_lines);
+  return fmt::format("In double, of {}:\n\n", answerable(report)) +
+         listed(broken, "- ", page_lines);
 }
 
 std::string end_of_cases(const CheckReport& report) {
   const std::vector<std::string> wrong = report.ours_wrong();
-  if (wrong.empty()) return "None of our own algorithms is wrong beyond its margin.\n";
-  std::string text = fmt::format("\nOurs, wrong beyond the documented margin: {}\n", wrong.size()) +
-                     listed(wrong, "  ", shown_lines);
+  if (wrong.empty()) {
+    return fmt::format("None of {} is wrong beyond its margin.\n", answerable(report));
+  }
+  const std::string whose = asks(report, Origin::module) ? "Of " + answerable(report) : "Ours";
+  std::string text =
+      fmt::format("\n{}, wrong beyond the documented margin: {}\n", whose, wrong.size()) +
+      listed(wrong, "  ", shown_lines);
   std::vector<std::string> commands;
   for (const auto& checker : report.checkers) {
     for (std::string& command : checker->commands()) commands.push_back(std::move(command));

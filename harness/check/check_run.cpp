@@ -15,6 +15,7 @@
 #include "harness/base/clock.h"
 #include "harness/base/progress.h"
 #include "harness/grade/failures/shrunk_failure.h"
+#include "harness/modules/modules.h"
 #include "harness/process/interrupt.h"
 #include "harness/process/worker_pool.h"
 #include "harness/record/machine.h"
@@ -123,6 +124,7 @@ record::ResultFolderPlan check_folder(const CheckRequest& request) {
                             {"families", fmt::format("{}", fmt::join(families, " "))},
                             {"time_limit", fmt::format("{}", request.time_limit)},
                             {"program", record::hash_of_program()}};
+  for (auto& fact : modules::facts()) identity.push_back(std::move(fact));
   if (request.part) {
     append_facts(*request.part, identity);
     notes.insert(notes.end(), request.part->notes.begin(), request.part->notes.end());

@@ -13,6 +13,7 @@
 #include "harness/base/nearest_name.h"
 #include "harness/kinds/kind.h"
 #include "harness/kinds/selection.h"
+#include "harness/modules/file_word.h"
 
 namespace touchstone::check {
 namespace {
@@ -60,12 +61,14 @@ std::map<const kinds::Kind*, std::string> shares_of(
   std::map<const kinds::Kind*, std::string> shares;
   for (const std::string& name : kinds::split_names(list)) {
     std::vector<std::string_view> known = {"all", "ours", "libraries", "oracle", "none"};
+    const std::string file = modules::is_file(name) ? modules::file_of(name) : "";
     bool is_known = false;
     for (const kinds::Kind* kind : selectable) {
       bool has_name = kinds::is_group(name);
       for (const AlgorithmInfo* one : kind->algorithms()) {
         known.push_back(one->name);
-        has_name = has_name || one->name == name;
+        has_name =
+            has_name || (file.empty() ? one->name == name : registry::module_of(*one) == file);
       }
       if (!has_name) continue;
       is_known = true;

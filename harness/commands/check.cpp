@@ -24,6 +24,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/text_file.h"
 #include "harness/kinds/pair/pair_request.h"
+#include "harness/modules/modules.h"
 #include "harness/peer/peer.h"
 
 namespace touchstone::commands {
@@ -134,6 +135,7 @@ std::string text_of(const check::VersionReport& versions) {
 int run(const CheckOptions& options, check::CheckMode mode, const std::string& command) {
   if (!options.certificates.empty()) return verify(options.certificates);
   if (!options.written.empty()) return write_questions(options, mode);
+  modules::load_named(options.selection.with);
   std::string peers = start_peers(options.peers);
   for (const std::string& file : options.answers) {
     peers = joined_names(peers, peer::add_answers(file));
@@ -200,8 +202,10 @@ void add_check(Arguments command) {
           .within(1, 1'000'000'000'000)
           .show_default()
           .value_optional();
-  command.text("--with", options->selection.with,
-               "Algorithms of all kinds: names, all, ours, libraries, oracle, none");
+  command.text(
+      "--with", options->selection.with,
+      "Algorithms of all kinds: names, all, ours, libraries, oracle, none, or the file of a "
+      "module, such as ./libmine.so");
   add_peer(command, options->peers);
   command
       .texts(

@@ -17,7 +17,9 @@
 #include "harness/base/error.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/shared_options.h"
 #include "harness/files/csv.h"
+#include "harness/modules/modules.h"
 #include "harness/peer/adapters.h"
 
 namespace touchstone::commands {
@@ -172,7 +174,11 @@ void add_list(Arguments command) {
   command.text("--format", *format, "How to print them").among({"table", "csv"}).show_default();
   const auto kind = std::make_shared<std::string>();
   command.text("--kind", *kind, "The kind to list: " + kinds());
-  command.job([format, kind] {
+  const auto with = std::make_shared<std::string>();
+  command.text("--with", *with, "Also list the algorithms of these modules, such as ./libmine.so");
+  command.job([format, kind, with] {
+    expect_module_files(*with);
+    modules::load_named(*with);
     const std::vector<Listed> all = algorithms_of(*kind);
     const std::string text = *format == "csv" ? as_csv(all) : as_table(all);
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||

@@ -29,6 +29,7 @@
 #include "harness/kinds/kind.h"
 #include "harness/kinds/questions.h"
 #include "harness/kinds/selection.h"
+#include "harness/modules/modules.h"
 #include "harness/process/isolate.h"
 #include "harness/report/case_view.h"
 
@@ -270,6 +271,7 @@ void check_options(const kinds::Kind& kind, const kinds::QuestionInput& input) {
 }
 
 kinds::QuestionInput input_of(const QueryOptions& options) {
+  modules::load_named(options.names);
   kinds::QuestionInput input = {
       .file = options.file,
       .names = kinds::split_names(joined_names(options.names, start_peers(options.peers))),
@@ -438,7 +440,9 @@ void add_query(Arguments command) {
       .is_read();
   command
       .text("--with,--narrow,--broad,--cast,--ccd,--query,--algorithm", options->names,
-            "Algorithms: names joined by commas, all, ours, libraries or oracle")
+            "Algorithms: names joined by commas, all, ours, libraries, oracle, or the file of a "
+            "module, "
+            "such as ./libmine.so")
       .show_default();
   add_peer(command, options->peers);
   command.text("--task", options->task, "What is asked (default: the kind's fullest)");

@@ -26,6 +26,8 @@
 #include "harness/grade/margins.h"
 #include "harness/kinds/selection.h"
 #include "harness/measure/noise.h"
+#include "harness/modules/file_word.h"
+#include "harness/modules/modules.h"
 #include "harness/record/machine.h"
 #include "harness/scene/generators/generators.h"
 #include "harness/stats/summary.h"
@@ -60,7 +62,75 @@ struct RunOptions {
   std::int64_t shard = -1;
   double depth_error = grade::usual_depth_error;
   std::vector<std::string> peers;
+  std::string with;  // files of modules, joined by commas
 };
+
+template <class Entry>
+std::vector<const Entry*> entries_of(const std::string& file) {
+  std::vector<const Entry*> found;
+  for (const Entry& entry : registry::entries<Entry>()) {
+    if (registry::module_of(entry.info) == file) found.push_back(&entry);
+  }
+  return found;
+}
+
+template <class Choice>
+std::vector<Precision> scalars_of(const std::vector<Choice>& choices) {
+  std::vector<Precision> scalars;
+  for (const Choice& choice : choices) {
+    const Precision scalar = choice.settings.scalar;
+    if (std::ranges::find(scalars, scalar) == scalars.end()) scalars.push_back(scalar);
+  }
+  return scalars;
+}
+
+// Adds what the module offers to the group: of each kind that the group asks, in the scalars that it asks. Returns how
+// much that is.
+std::size_t add_module(const std::string& file, campaign::CampaignGroup& group) {
+  std::size_t added = 0;
+  if (!group.broad.empty()) {
+    for (const BroadPhaseEntry* entry : entries_of<BroadPhaseEntry>(file)) {
+      ++added;
+      if (std::ranges::find(group.broad, entry) == group.broad.end()) group.broad.push_back(entry);
+    }
+  }
+  const auto add_choices = [&](std::vector<measure::NarrowChoice>& choices,
+                               const std::vector<measure::NarrowChoice>& more) {
+    for (const measure::NarrowChoice& choice : more) {
+      ++added;
+      if (std::ranges::find(choices, choice.label(), &measure::NarrowChoice::label) ==
+          choices.end())
+        choices.push_back(choice);
+    }
+  };
+  std::vector<measure::NarrowChoice> narrow;
+  for (const NarrowPhaseEntry* entry : entries_of<NarrowPhaseEntry>(file)) {
+    for (const Precision scalar : scalars_of(group.narrow)) {
+      if (offers(*entry, scalar))
+        narrow.push_back({entry, {.scalar = scalar}, false, measure::usual_batch});
+    }
+  }
+  add_choices(group.narrow, narrow);
+  add_choices(group.concave, measure::concave_choices(entries_of<ConcaveEntry>(file), {},
+                                                      scalars_of(group.concave)));
+  return added;
+}
+
+// Adds the modules to every group. Throws InputError for one of which no group asks anything.
+void add_modules(const std::string& words, campaign::Campaign& campaign) {
+  if (words.empty()) return;
+  for (const std::string& word : kinds::split_names(words)) {
+    std::size_t added = 0;
+    for (campaign::CampaignGroup& group : campaign.groups) {
+      added += add_module(modules::file_of(word), group);
+    }
+    if (added > 0) continue;
+    throw base::InputError(fmt::format(
+        "--with {}: it offers none of the kinds and scalars that the campaign measures; expected "
+        "one of them",
+        word));
+  }
+}
 
 // Adds the peers to every group that asks narrow phases, in each of their scalars. They are graded, and not timed.
 void add_peers(const std::string& names, campaign::Campaign& campaign) {
@@ -215,6 +285,18 @@ void add_named(const std::string& list, std::vector<std::string>& names) {
   }
 }
 
+// Adds the names of modules' algorithms that the campaign measures.
+void add_measured_modules(const campaign::Campaign& campaign, std::vector<std::string>& names) {
+  const auto add = [&](const AlgorithmInfo& info) {
+    if (info.origin == Origin::module && std::ranges::find(names, info.name) == names.end())
+      names.push_back(info.name);
+  };
+  for (const campaign::CampaignGroup& group : campaign.groups) {
+    for (const BroadPhaseEntry* entry : group.broad) add(entry->info);
+    for (const measure::NarrowChoice* choice : group.choices()) add(choice->info());
+  }
+}
+
 // The command that goes on with this run.
 std::string command_to_go_on() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
@@ -233,8 +315,11 @@ void report(const campaign::Campaign& campaign, const campaign::RunResult& resul
   stats::ReportSetting setting = {
       .noise = options.noisy ? stats::Noise::kept : stats::Noise::left_out,
       .depth_error = options.depth_error};
-  for (const std::string* list : {&options.broad, &options.narrow, &options.concave})
-    add_named(*list, setting.own);
+  add_measured_modules(campaign, setting.own);
+  if (setting.own.empty()) {
+    for (const std::string* list : {&options.broad, &options.narrow, &options.concave})
+      add_named(*list, setting.own);
+  }
   if (result.interrupted) setting.stopped = stats::Stop{result.stopped_at, command_to_go_on()};
   const stats::RunReport report =
       stats::write_report(stats::read_results(folder), result.findings.departures(),
@@ -277,13 +362,14 @@ std::optional<int> run_other_file(const RunOptions& options, const WholeRun& who
   if (options.tables) of_file.others.emplace_back("--tables");
   if (options.quick) of_file.others.emplace_back("--quick");
   if (!options.peers.empty()) of_file.others.emplace_back("--peer");
+  if (!options.with.empty()) of_file.others.emplace_back("--with");
   if (options.depth_error != grade::usual_depth_error) of_file.others.emplace_back("--depth-error");
   return whole.run_file(of_file);
 }
 
 int run(const RunOptions& options, const WholeRun* whole) {
-  const bool is_standard =
-      options.campaign.empty() && options.scenes.empty() && options.peers.empty();
+  const bool is_standard = options.campaign.empty() && options.scenes.empty() &&
+                           options.peers.empty() && options.with.empty();
   const bool is_shard = !options.plan.empty();
   if (whole == nullptr && (!is_standard || is_shard || options.with_page)) hand_over();
   if (!options.campaign.empty() || is_shard) {
@@ -293,8 +379,11 @@ int run(const RunOptions& options, const WholeRun* whole) {
     throw base::InputError(
         "--threads belongs to --scene or --plan; expected it in the campaign's file");
   }
+  expect_module_files(options.with);
+  modules::load_named(options.with);
   const std::string peers = whole == nullptr ? "" : whole->start_peers(options.peers);
   campaign::Campaign campaign = campaign_of(options);
+  add_modules(options.with, campaign);
   add_peers(peers, campaign);
   if (options.quick) make_quick(campaign);
   const std::filesystem::path folder = results_folder(options.out, campaign.name);
@@ -347,6 +436,10 @@ void add_run_options(Arguments command, const WholeRun* whole) {
                            quick_frames, quick_bodies));
   command.flag("--dry-run", options->dry_run, "Print what would be measured, and for how long");
   add_peer(command, options->peers).excludes(command.option("--plan"));
+  command
+      .text("--with", options->with,
+            "Also measure the algorithms of these modules, joined by commas: ./libmine.so")
+      .excludes(command.option("--plan"));
 
   const std::string one = "Instead of a campaign file";
   const Option scene =

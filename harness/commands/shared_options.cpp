@@ -13,6 +13,8 @@
 #include "harness/base/names.h"
 #include "harness/commands/commands.h"
 #include "harness/files/text_file.h"
+#include "harness/kinds/selection.h"
+#include "harness/modules/file_word.h"
 #include "harness/record/folder_files.h"
 
 namespace touchstone::commands {
@@ -92,6 +94,15 @@ Option add_shard(Arguments& command, std::string& plan, std::int64_t& shard) {
   const Option number =
       command.number("--shard", shard, "Number of the shard, from 0").not_negative().needs(folder);
   return folder.needs(number);
+}
+
+void expect_module_files(const std::string& words) {
+  if (words.empty()) return;
+  for (const std::string& word : kinds::split_names(words)) {
+    if (modules::is_file(word)) continue;
+    throw base::InputError(fmt::format(
+        "--with: found '{}'; expected the file of a module, such as ./libmine.so", word));
+  }
 }
 
 void expect_not_given(std::initializer_list<Option> options, const std::string& expected) {

@@ -58,6 +58,9 @@ std::string start_peers(const std::vector<std::string>& peers);
 // Returns both lists of names, joined by commas, without an empty one.
 std::string joined_names(const std::string& names, const std::string& further);
 
+// Throws InputError if one of these words, joined by commas, is not the file of a module.
+void expect_module_files(const std::string& words);
+
 // Throws InputError if one of these options was given. `expected` says where it may be, such as "with
 // --task distance alone".
 void expect_not_given(std::initializer_list<Option> options, const std::string& expected);

@@ -69,7 +69,7 @@ GradedAnswer grade_answer(const NarrowPhaseEntry& algorithm, bool extreme, const
   }
   answer.witnesses = grade_witnesses(outcome, query.task, end.pair.a(), end.pair.b(), c.oracle());
   answer.beyond =
-      algorithm.info.origin == Origin::ours && !beyond_margins(algorithm, answer, extreme).empty();
+      is_answerable(algorithm.info.origin) && !beyond_margins(algorithm, answer, extreme).empty();
   return answer;
 }
 

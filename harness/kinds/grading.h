@@ -40,7 +40,7 @@ Contestant contestant_of(const Kind& kind, const Entry& entry, bool promised,
           .entry = &entry,
           .scalar = scalar,
           .task = task,
-          .promised = promised && entry.info.origin == Origin::ours};
+          .promised = promised && is_answerable(entry.info.origin)};
 }
 
 // The grade that the status alone decides, if it does.

@@ -14,6 +14,7 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/nearest_name.h"
+#include "harness/modules/file_word.h"
 
 namespace touchstone::kinds {
 
@@ -29,9 +30,10 @@ inline std::vector<std::string> split_names(std::string_view list) {
 }
 
 // Returns the entries of these names, in the order named, each once. "all" means every one that is
-// built; "ours", "libraries" (or "peers") and "oracle" mean those of that origin; "none" means none. Throws
-// InputError for an unknown name, with the list of known names, and for one that is not built, with
-// the reason. `what` is "broad phase" or "narrow phase".
+// built; "ours", "libraries" (or "peers"), "oracle" and "modules" mean those of that origin; "none" means none; the file of
+// a module that was loaded means those of the module. Throws
+// InputError for an unknown name, with the list of known names, for one that is not built, with
+// the reason, and for a module without such algorithms. `what` is "broad phase" or "narrow phase".
 template <class Entry>
 std::vector<const Entry*> select(std::span<const Entry> entries,
                                  const std::vector<std::string>& names, std::string_view what) {
@@ -45,10 +47,23 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
     if (name == "ours") origin = Origin::ours;
     if (name == "libraries" || name == "peers") origin = Origin::peer;
     if (name == "oracle") origin = Origin::oracle;
+    if (name == "modules") origin = Origin::module;
     if (name == "all" || origin) {
       for (const Entry& entry : entries) {
         const bool wanted = !origin || entry.info.origin == *origin;
         if (wanted && is_built(entry.info)) choose(entry);
+      }
+      continue;
+    }
+    if (modules::is_file(name)) {
+      const std::string file = modules::file_of(name);
+      const std::size_t before = chosen.size();
+      for (const Entry& entry : entries) {
+        if (registry::module_of(entry.info) == file) choose(entry);
+      }
+      if (chosen.size() == before) {
+        throw base::InputError(
+            fmt::format("{}: has no {}; expected a module with one", name, what));
       }
       continue;
     }
@@ -70,7 +85,7 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
 
 // True for a word that selects algorithms of a whole group, or none.
 inline bool is_group(std::string_view name) {
-  constexpr std::array groups = {"all", "ours", "libraries", "peers", "oracle", "none"};
+  constexpr std::array groups = {"all", "ours", "libraries", "peers", "oracle", "modules", "none"};
   return std::ranges::find(groups, name) != groups.end();
 }
 

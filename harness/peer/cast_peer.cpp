@@ -77,13 +77,15 @@ class CastPeer final : public Cast {
 void add_cast(const AlgorithmInfo& info, const files::JsonNode& offer,
               const std::shared_ptr<Link>& link) {
   const std::vector<ShapeKind> shapes = offered_shapes(offer);
-  registry::add_untimed(CastEntry{.info = info,
-                                  .scalars = offered_scalars(offer),
-                                  .rotation = offered_flag(offer, "rotation"),
-                                  .approach = offered_flag(offer, "approach"),
-                                  .make = [link, shapes](const CastSettings& settings) {
-                                    return std::make_unique<CastPeer>(link, shapes, settings);
-                                  }});
+  registry::add(CastEntry{.info = info,
+                          .scalars = offered_scalars(offer),
+                          .rotation = offered_flag(offer, "rotation"),
+                          .approach = offered_flag(offer, "approach"),
+                          .make =
+                              [link, shapes](const CastSettings& settings) {
+                                return std::make_unique<CastPeer>(link, shapes, settings);
+                              }},
+                registry::Timed::no);
 }
 
 }  // namespace touchstone::peer

@@ -145,21 +145,23 @@ class PointPeer final : public PointQuery {
 
 void add_ray(const AlgorithmInfo& info, const files::JsonNode& offer,
              const std::shared_ptr<Link>& link) {
-  registry::add_untimed(RayCastEntry{.info = info,
-                                     .tasks = offered<RayTask>(offer, "tasks", all_ray_tasks),
-                                     .scalars = offered_scalars(offer),
-                                     .make = [link](const RayCastSettings& settings) {
-                                       return std::make_unique<RayPeer>(link, settings);
-                                     }});
+  registry::add(RayCastEntry{.info = info,
+                             .tasks = offered<RayTask>(offer, "tasks", all_ray_tasks),
+                             .scalars = offered_scalars(offer),
+                             .make =
+                                 [link](const RayCastSettings& settings) {
+                                   return std::make_unique<RayPeer>(link, settings);
+                                 }},
+                registry::Timed::no);
 }
 
 void add_point(const AlgorithmInfo& info, const files::JsonNode& offer,
                const std::shared_ptr<Link>& link) {
-  registry::add_untimed(
-      PointQueryEntry{.info = info,
-                      .tasks = offered<PointTask>(offer, "tasks", all_point_tasks),
-                      .scalar = offered_scalars(offer).front(),
-                      .make = [link] { return std::make_unique<PointPeer>(link); }});
+  registry::add(PointQueryEntry{.info = info,
+                                .tasks = offered<PointTask>(offer, "tasks", all_point_tasks),
+                                .scalar = offered_scalars(offer).front(),
+                                .make = [link] { return std::make_unique<PointPeer>(link); }},
+                registry::Timed::no);
 }
 
 }  // namespace touchstone::peer

@@ -97,16 +97,18 @@ void add_pair(const AlgorithmInfo& info, const files::JsonNode& offer,
               const std::shared_ptr<Link>& link) {
   const std::vector<ShapeKind> shapes = offered_shapes(offer);
   const auto encoding = known_name<Encoding>(offer, "encoding", all_encodings);
-  registry::add_untimed(
+  registry::add(
       NarrowPhaseEntry{.info = info,
                        .tasks = offered<Task>(offer, "tasks", all_tasks),
                        .scalars = offered_scalars(offer),
                        .traits = {.approximate = offered_flag(offer, "approximate"),
                                   .depth_is_bound = offered_flag(offer, "depth_is_bound")},
                        .encoding = encoding_function(encoding.value_or(Encoding::as_given)),
-                       .make = [link, shapes](const NarrowPhaseSettings& settings) {
-                         return std::make_unique<PairPeer>(link, shapes, settings);
-                       }});
+                       .make =
+                           [link, shapes](const NarrowPhaseSettings& settings) {
+                             return std::make_unique<PairPeer>(link, shapes, settings);
+                           }},
+      registry::Timed::no);
 }
 
 }  // namespace touchstone::peer

@@ -178,8 +178,8 @@ std::string name_of(const files::JsonNode& hello) {
 }
 
 void expect_new(const files::JsonNode& hello, const std::string& name) {
-  constexpr std::array<std::string_view, 6> words = {"all",       "ours",   "peers",
-                                                     "libraries", "oracle", "none"};
+  constexpr std::array<std::string_view, 7> words = {"all",    "ours",    "peers", "libraries",
+                                                     "oracle", "modules", "none"};
   if (std::ranges::find(words, name) != words.end()) {
     hello.fail(
         fmt::format("found the name '{}', which means several algorithms; expected another", name));

@@ -33,10 +33,14 @@ std::string departures_text(const Findings& findings) {
   std::string text;
   for (const auto& [key, list] : by_algorithm) {
     const Departure& first = *list.front();
+    const auto row = static_cast<std::size_t>(first.row);
+    const bool is_of_module = first.row >= 0 && row < findings.rows().size() &&
+                              findings.rows()[row].origin == RowOrigin::module;
     text += fmt::format("{}{}: {}\n    on {}\n", first.algorithm,
-                        first.known  ? ""
-                        : first.ours ? " (OURS)"
-                                     : " (peer)",
+                        first.known    ? ""
+                        : is_of_module ? " (MODULE)"
+                        : first.ours   ? " (OURS)"
+                                       : " (peer)",
                         first.what, first.where);
     if (list.size() > 1) text += fmt::format("    and {} more like it\n", list.size() - 1);
     if (!first.reproduction.empty()) text += fmt::format("    shown by {}\n", first.reproduction);

@@ -17,14 +17,14 @@ struct Departure {
   std::int64_t block = 0;
   std::int64_t row = -1;  // index into raw.csv, from 0; -1: not added yet
   std::string algorithm;
-  bool ours = false;
+  bool ours = false;         // of ours, or of a module (is_answerable)
   bool known = false;        // a known defect in the registry, or approximate by design
   std::string where;         // scene, bodies, frame, and pair kind
   std::string what;          // a sentence about the difference
   std::string reproduction;  // the file that reproduces it; empty if there is none
 };
 
-// Returns true if one of them is of an algorithm of ours, and not known and accepted.
+// Returns true if one of them is of an algorithm of ours or of a module, and not known and accepted.
 bool ours_are_wrong(std::span<const Departure> departures);
 
 class Findings {
@@ -54,7 +54,7 @@ void columns(Row& row, Visit visit) {
   visit("block", row.block, "Number of the block in the campaign.");
   visit("row", with_sign(row.row), "Place in raw.csv, from 0, of the row that shows it.");
   visit("algorithm", row.algorithm, "The algorithm's label, as in the tables.");
-  visit("ours", row.ours, "1 for an algorithm of ours.");
+  visit("ours", row.ours, "1 for an algorithm of ours, or of a module: it ends the run with status 1 unless it is known.");
   visit("known", row.known, "1 where the departure is a known defect, or approximate by design.");
   visit("where", row.where, "Scene, bodies, frame and pair kind.");
   visit("what", row.what, "The departure in words.");

@@ -10,7 +10,7 @@ namespace touchstone::record {
 
 static_assert(base::enumerators<RowStatus>.size() == base::enumerators<Status>.size() + 1);
 static_assert(row_status(Status::garbage) == RowStatus::garbage);
-static_assert(row_origin(Origin::oracle) == RowOrigin::oracle);
+static_assert(row_origin(Origin::module) == RowOrigin::module);
 
 std::string_view to_string(Phase phase) {
   switch (phase) {

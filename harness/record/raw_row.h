@@ -46,7 +46,7 @@ std::string_view to_string(RowStatus status);
 constexpr RowStatus row_status(Status status) { return static_cast<RowStatus>(status); }
 
 // The values of Origin, and `limit`: the lower bound of a broad phase (algorithms/limit.h).
-enum class RowOrigin : std::uint8_t { ours, peer, oracle, limit };
+enum class RowOrigin : std::uint8_t { ours, peer, oracle, module, limit };
 std::string_view to_string(RowOrigin origin);
 constexpr RowOrigin row_origin(Origin origin) { return static_cast<RowOrigin>(origin); }
 

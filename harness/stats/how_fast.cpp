@@ -290,7 +290,8 @@ std::string own_text(const Results& results, const Tables& tables, const ReportS
         for (Rivals* rivals : {&ours, &library}) {
           const Contestant* const rival = fastest(set, setting.noise, [&](const Contestant& other) {
             return &other != &mine && other.batch == mine.batch && !other.is_limit() &&
-                   other.is_ours() == (rivals == &ours) && is_right(set, other, tables.depth_error);
+                   (rivals == &ours ? other.is_ours() : other.is_others()) &&
+                   is_right(set, other, tables.depth_error);
           });
           if (rival == nullptr) continue;
           const double ratio = if_known(ratio_between(set, mine, *rival, setting.noise)).median;

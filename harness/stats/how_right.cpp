@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -61,7 +63,8 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Depar
     return fault;
   };
   for (const AgreementRow& row : tables.agreement) {
-    Fault& fault = fault_of(row.label, row.origin == record::RowOrigin::ours);
+    Fault& fault = fault_of(row.label, row.origin == record::RowOrigin::ours ||
+                                           row.origin == record::RowOrigin::module);
     fault.queries += row.queries;
     fault.wrong += row.wrong;
     fault.unanswered += row.failed + row.unanswered;
@@ -98,8 +101,10 @@ std::string how_right(const Results& results, const Tables& tables,
                       std::span<const record::Departure> departures, bool stopped) {
   std::int64_t queries = 0, frames = 0;
   bool libraries = false;
+  std::set<std::string> modules;  // labels of their algorithms
   for (const SampleSet& set : results.sets) {
     for (const Contestant& contestant : set.contestants) {
+      if (contestant.origin == record::RowOrigin::module) modules.insert(contestant.label);
       libraries = libraries || contestant.origin == record::RowOrigin::peer;
       if (!set.key.narrow()) frames += static_cast<std::int64_t>(contestant.checks.size());
     }
@@ -107,12 +112,13 @@ std::string how_right(const Results& results, const Tables& tables,
   for (const AgreementRow& row : tables.agreement) queries += row.queries;
   if (queries == 0 && frames == 0 && departures.empty()) return "";
 
-  std::vector<std::string> of_libraries, of_ours, by_design, unanswered, slow;
+  std::vector<std::string> of_libraries, of_ours, of_modules, by_design, unanswered, slow;
   for (const Fault& fault : faults_of(tables, departures)) {
     const std::string text = fault.wrong_text();
     if (fault.slow) slow.push_back(short_label(fault.label));
     if (!text.empty()) {
       (fault.by_design || (fault.is_bound && fault.wrong == 0) ? by_design
+       : modules.contains(fault.label)                         ? of_modules
        : fault.ours                                            ? of_ours
                                                                : of_libraries)
           .push_back(text);
@@ -133,6 +139,7 @@ std::string how_right(const Results& results, const Tables& tables,
   };
   if (libraries) add("libraries", of_libraries);
   add("ours", of_ours, unanswered.empty() ? "" : "; without an answer: " + list_text(unanswered));
+  if (!modules.empty()) add("modules", of_modules);
   if (!by_design.empty()) add("by design", by_design);
   if (!slow.empty()) add("over time", slow);
   return text;

@@ -112,6 +112,8 @@ struct Contestant {
   std::optional<record::RowStatus> failure;
 
   bool is_ours() const { return origin == record::RowOrigin::ours; }
+  // Neither ours nor a module's, which is the user's own.
+  bool is_others() const { return !is_ours() && origin != record::RowOrigin::module; }
   const std::string& name() const { return algorithm.empty() ? label : algorithm; }
   bool is_limit() const { return label == limit_label || origin == record::RowOrigin::limit; }
 };

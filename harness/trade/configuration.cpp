@@ -95,7 +95,8 @@ NarrowChain parse_chain(std::string_view text) {
     text.remove_prefix(plus + 1);
   }
   for (const std::string& name : names) {
-    if (name == "all" || name == "ours" || name == "peers" || name == "oracle" || name == "none") {
+    if (name == "all" || name == "ours" || name == "peers" || name == "oracle" ||
+        name == "modules" || name == "none") {
       throw base::InputError(fmt::format("'{}' in a chain of narrow phases; expected names", name));
     }
   }

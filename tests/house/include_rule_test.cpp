@@ -136,6 +136,7 @@ bool harness_may_include(const std::string& from, const std::string& to) {
     return true;
   }
   if (in(to, "algorithms/kernels")) return from == "harness/bench/kernels.cpp";  // measures them
+  if (in(to, "algorithms/module")) return in(from, "harness/modules");           // loads them
   if (!in(to, "harness")) return false;
   const auto floor = [](const std::string& path) {
     return std::ranges::find(harness_rooms(), room_in(path, "harness"));

@@ -223,7 +223,7 @@ void BoxChecker::finish() {
 std::vector<std::string> BoxChecker::ours_wrong() const {
   std::vector<std::string> lines;
   for (const BroadCheck& check : checks_) {
-    if (check.good() || check.entry->info.origin != Origin::ours) continue;
+    if (check.good() || !is_answerable(check.entry->info.origin)) continue;
     lines.push_back(fmt::format("{} on boxes '{}', seed {}: {}", check.entry->info.name,
                                 check.scene->name, seed_, check.faults()));
   }
@@ -246,7 +246,7 @@ std::string BoxChecker::text(std::size_t /*page_width*/) const {
       if (check.entry != entry || check.good()) continue;
       scenes += (scenes.empty() ? "" : ", ") + check.scene->name;
     }
-    if (scenes.empty() || entry->info.origin == Origin::ours) continue;
+    if (scenes.empty() || is_answerable(entry->info.origin)) continue;
     wrong += fmt::format("  {} is wrong on: {}\n", entry->info.name, scenes);
   }
   return sum() + wrong;

@@ -171,7 +171,7 @@ class PairJob {
         beyond = beyond || (difference > 2 * margins.length && !any_depth);
       }
     }
-    beyond = beyond && algorithm.info.origin == Origin::ours;
+    beyond = beyond && is_answerable(algorithm.info.origin);
     if (beyond ? count.beyond == 0 : worse && count.beyond == 0) count.worst_index = original.index;
     if (beyond) ++count.beyond;
   }

@@ -44,7 +44,7 @@ struct PairRequest : CheckRequest {
   }
   // True if the cases are those of a file.
   bool is_of_file() const;
-  bool is_ours(std::uint32_t entry) const { return narrow[entry]->info.origin == Origin::ours; }
+  bool is_ours(std::uint32_t entry) const { return is_answerable(narrow[entry]->info.origin); }
 };
 
 // Takes the pairs of a file in place of all families, as one regime that is called after the file. Of algorithms

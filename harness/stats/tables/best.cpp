@@ -42,7 +42,7 @@ BroadBestRow broad_best_of(const SampleSet& set, const Contestant& ours, Noise n
   BroadBestRow row;
   row.key = set.key;
   row.ours = best(&Contestant::is_ours);
-  row.peer = best([](const Contestant& contestant) { return !contestant.is_ours(); });
+  row.peer = best([](const Contestant& contestant) { return contestant.is_others(); });
   row.bullet_or_fcl = best(is_of_bullet_or_fcl);
   const auto limit = std::ranges::find_if(set.contestants, &Contestant::is_limit);
   row.over_limit = limit == set.contestants.end() ? none : ratio_between(set, ours, *limit, noise);
@@ -68,7 +68,7 @@ std::optional<NarrowBestRow> narrow_best_of(const SampleSet& set, std::int64_t b
   };
   const auto fastest_of = [&](bool ours, bool right) {
     return fastest_or_first(set, noise, [&](const Contestant& contestant) {
-      return contestant.batch == batch && contestant.is_ours() == ours &&
+      return contestant.batch == batch && (ours ? contestant.is_ours() : contestant.is_others()) &&
              (!right || is_rival(contestant));
     });
   };
