@@ -70,7 +70,7 @@ void simulate_scene(const SimulateOptions& options) {
       [&](int frame, std::span<const scene::LoggedPose> moved) { log.add(frame, moved); });
   log.close();
   files::write_text(beside, log_scene_text(options));
-  fmt::print("{}: {} of {} bodies fell, {} frames; between the last two {} rested\n", options.out,
+  fmt::print("{}: {} of {} bodies fell, {} frames; {} did not move in the last one\n", options.out,
              done.free, scene.bodies.size(), done.frames, done.resting);
   fmt::print("To measure on it: touchstone run --scene {}\n", beside.string());
 }

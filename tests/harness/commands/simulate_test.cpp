@@ -55,5 +55,14 @@ TEST_F(SimulateCommand, RefusesWhatMakesNoSense) {
                  "flat.toml: body 0 has no volume", folder_);
 }
 
+TEST(SimulateWithoutBullet, SaysWhatIsMissing) {
+  if (simulate::lacking().empty()) GTEST_SKIP() << "Bullet is there";
+  const TemporaryFolder folder;
+  folder.write("s.toml", "[[body]]\nshape = {type = \"sphere\", radius = 1}\n");
+  const std::string path = folder.path().string();
+  expect_refusal("scene simulate " + path + "/s.toml --out " + path + "/t.csv",
+                 "bodies cannot fall: " + simulate::lacking(), folder);
+}
+
 }  // namespace
 }  // namespace touchstone
