@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "algorithms/registry.h"
+#include "harness/modules/file_word.h"
 #include "tests/harness/commands/program.h"
 #include "tests/project_folder.h"
 
@@ -80,10 +81,10 @@ std::vector<std::vector<std::string>> commands_in(const std::string& text) {
   return commands;
 }
 
-// The names of algorithms, of groups of them, and none.
+// The names of algorithms, of groups of them, of files of modules, and none.
 bool is_known_name(const std::string& name) {
   static const std::set<std::string> names = [] {
-    std::set<std::string> all = {"all", "ours", "libraries", "peers", "oracle", "none"};
+    std::set<std::string> all = {"all", "ours", "libraries", "peers", "oracle", "modules", "none"};
     const auto add = [&](const auto& entries) {
       for (const auto& entry : entries) all.insert(entry.info.name);
     };
@@ -102,7 +103,7 @@ bool is_known_name(const std::string& name) {
   // Capitals are what a reader puts in.
   const bool is_placeholder = std::ranges::all_of(
       name, [](unsigned char c) { return std::isupper(c) != 0 || c == '_' || c == '.'; });
-  return is_placeholder || names.contains(name);
+  return is_placeholder || modules::is_file(name) || names.contains(name);
 }
 
 void expect_names(const std::string& list, const std::string& where) {
