@@ -313,7 +313,8 @@ TOUCHSTONE_NAMESPACE_V1 {
 
     void update();
 
-    // Calls f(Handle, Handle) once for each pair of boxes that overlap, as of the last update.
+    // Calls f(Handle, Handle) once for each pair of boxes that overlap, as of the last update. f may move bodies, which
+    // changes no pair before the next update; it must not update, insert or remove.
     template <class F>
     void for_each_pair(F&& f) {
       const Pairs found = pairs();
@@ -323,7 +324,7 @@ TOUCHSTONE_NAMESPACE_V1 {
         }
       }
     }
-    // The same as the broad phase writes it, until the next call that is not const.
+    // The same as the broad phase writes it, until the next call that is not const, but for `move`.
     struct Pairs {
       std::span<const std::span<const IndexPair>> chunks;  // slots of handles
       const std::uint32_t* generations;                    // of each slot
