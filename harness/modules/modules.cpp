@@ -7,12 +7,11 @@
 #include <array>
 #include <cstdint>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <regex>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <type_traits>
 
@@ -31,40 +30,11 @@ namespace {
 constexpr double load_seconds = 10;
 constexpr int listen_milliseconds = 5;
 constexpr std::size_t most_tables = 64;
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
 std::map<std::filesystem::path, std::string>& loaded() {
   static std::map<std::filesystem::path, std::string> hashes;
   return hashes;
-}
-
-enum class Trial : std::uint8_t { has_ended, has_threads, has_returned };
-
-// Loads it in a child process. A fault that can be told is told by the second load, in this process. Throws
-// base::InputError for a file that ends the process, hangs or starts threads.
-void try_to_load(const std::filesystem::path& file) {
-  process::SharedArray<Trial> trial(1);
-  process::ChildProcess child({}, [&] {
-    try {
-      const SharedObject object(file);
-      process::expect_one_thread();
-    } catch (const std::logic_error&) {
-      trial[0] = Trial::has_threads;
-      return;
-    } catch (const std::exception&) {
-      trial[0] = Trial::has_returned;
-      return;
-    }
-    trial[0] = Trial::has_returned;
-  });
-  const base::Stopwatch watch;
-  while (!child.has_ended() && watch.seconds() < load_seconds) child.listen(listen_milliseconds);
-  if (child.alive()) child.stop();
-  if (trial[0] == Trial::has_returned) return;
-  throw base::InputError(
-      file.string(), 0,
-      trial[0] == Trial::has_threads
-          ? "starts threads when it is loaded; expected none before an instance is made"
-          : fmt::format("cannot be loaded: {}; expected a module", child.failure().reason()));
 }
 
 // A text of a table. Throws base::InputError if it is null, empty or too long for a line.
@@ -110,7 +80,8 @@ std::string name_of(const char* text, const SharedObject& object) {
 }
 
 template <class Entry, class Table>
-void add_all(const Table* const* tables, const std::shared_ptr<const SharedObject>& object) {
+void add_all(const Table* const* tables, const std::shared_ptr<const SharedObject>& object,
+             Foretold& foretold) {
   for (std::size_t i = 0; tables != nullptr && tables[i] != nullptr; ++i) {
     if (i == most_tables) {
       object->fail(fmt::format("offers more than {} {}; expected NULL behind the last", most_tables,
@@ -126,12 +97,55 @@ void add_all(const Table* const* tables, const std::shared_ptr<const SharedObjec
     expect_functions(*offer,
                      {{"create", table.create != nullptr}, {"destroy", table.destroy != nullptr}});
     try {
-      add(offer, info);
+      add(offer, info, foretold);
     } catch (const std::length_error& error) {
       object->fail(
           fmt::format("{}; expected at most {} of a kind", error.what(), registry::most_added));
     }
   }
+}
+
+void add_tables(const std::shared_ptr<const SharedObject>& object, Foretold& foretold) {
+  const TouchstoneModule& offer = object->offer();
+  add_all<BroadPhaseEntry>(offer.boxes, object, foretold);
+  add_all<NarrowPhaseEntry>(offer.pairs, object, foretold);
+  add_all<RayCastEntry>(offer.rays, object, foretold);
+  add_all<PointQueryEntry>(offer.points, object, foretold);
+  add_all<ConcaveEntry>(offer.meshes, object, foretold);
+  add_all<CastEntry>(offer.casts, object, foretold);
+  add_all<CcdEntry>(offer.features, object, foretold);
+}
+
+enum class Trial : std::uint8_t { has_ended, has_threads, has_thrown, has_returned };
+
+// Loads it in a child process, which asks its tables what is foretold. A fault that can be told is told by the second
+// load, in this process. Throws base::InputError for a file that ends the process, hangs or starts threads.
+void try_to_load(const std::filesystem::path& file, std::span<std::uint8_t> answers) {
+  process::SharedArray<Trial> trial(1);
+  process::ChildProcess child({}, [&] {
+    try {
+      Foretold foretold(answers, true);
+      add_tables(std::make_shared<const SharedObject>(file), foretold);
+      trial[0] = Trial::has_threads;
+      process::expect_one_thread();
+      trial[0] = Trial::has_returned;
+    } catch (const base::InputError&) {
+      trial[0] = Trial::has_returned;
+    } catch (...) {
+      if (trial[0] != Trial::has_threads) trial[0] = Trial::has_thrown;
+    }
+  });
+  const base::Stopwatch watch;
+  while (!child.has_ended() && watch.seconds() < load_seconds) child.listen(listen_milliseconds);
+  if (child.alive()) child.stop();
+  if (trial[0] == Trial::has_returned) return;
+  throw base::InputError(
+      file.string(), 0,
+      trial[0] == Trial::has_threads
+          ? "starts threads when it is loaded; expected none before an instance is made"
+      : trial[0] == Trial::has_thrown
+          ? "throws when it is asked what it supports; expected an answer"
+          : fmt::format("cannot be loaded: {}; expected a module", child.failure().reason()));
 }
 
 }  // namespace
@@ -144,18 +158,12 @@ void load(const std::filesystem::path& named) {
                            fmt::format("{}; expected the file of a module", error.message()));
   }
   if (loaded().contains(file)) return;
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  try_to_load(file);
+  const std::string bytes = base::read_whole(file, most_bytes, "a module");
+  process::SharedArray<std::uint8_t> answers(2 * most_tables * most_supports);
+  try_to_load(file, answers.span());
   const auto object = std::make_shared<const SharedObject>(file);
-  const TouchstoneModule& offer = object->offer();
-  add_all<BroadPhaseEntry>(offer.boxes, object);
-  add_all<NarrowPhaseEntry>(offer.pairs, object);
-  add_all<RayCastEntry>(offer.rays, object);
-  add_all<PointQueryEntry>(offer.points, object);
-  add_all<ConcaveEntry>(offer.meshes, object);
-  add_all<CastEntry>(offer.casts, object);
-  add_all<CcdEntry>(offer.features, object);
+  Foretold foretold(answers.span(), false);
+  add_tables(object, foretold);
   bool offers_some = false;
   registry::for_each_kind([&]<class Entry>() {
     offers_some =

@@ -50,14 +50,13 @@ class CastModule final : public Cast {
 };
 
 // As of pairs.
-std::vector<Offer<TouchstoneModuleCasts>>& cast_slots() {
-  static std::vector<Offer<TouchstoneModuleCasts>> offers;
-  return offers;
+std::vector<Supports>& cast_slots() {
+  static std::vector<Supports> supports;
+  return supports;
 }
 template <std::size_t slot>
 bool cast_supports_in_slot(ShapeKind a, ShapeKind b, bool turns) {
-  return cast_slots()[slot]->table.supports(static_cast<std::uint32_t>(a),
-                                            static_cast<std::uint32_t>(b), turns ? 1 : 0) != 0;
+  return cast_slots()[slot][supports_place(a, b, turns ? 1 : 0)];
 }
 constexpr auto cast_supports_functions = []<std::size_t... slot>(std::index_sequence<slot...>) {
   return std::array{&cast_supports_in_slot<slot>...};
@@ -89,7 +88,7 @@ class FeatureModule final : public Ccd {
 
 }  // namespace
 
-void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info) {
+void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info, Foretold& foretold) {
   const TouchstoneModuleCasts& table = offer->table;
   expect_functions(*offer, {{"bind", table.bind != nullptr}, {"solve", table.solve != nullptr}});
   expect_bits(*offer, "scalars", table.scalars, all_scalars);
@@ -102,10 +101,14 @@ void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info) {
   const bool has_slot = table.supports != nullptr && cast_slots().size() < registry::most_added;
   if (has_slot) entry.supports = cast_supports_functions[cast_slots().size()];
   registry::add(std::move(entry), registry::Timed::yes, offer->object->file().string());
-  if (has_slot) cast_slots().push_back(offer);
+  if (!has_slot) return;
+  cast_slots().push_back(supports_of(foretold, 2, [&](ShapeKind a, ShapeKind b, std::size_t turns) {
+    return table.supports(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                          static_cast<int>(turns)) != 0;
+  }));
 }
 
-void add(Offer<TouchstoneModuleFeaturePairs> offer, AlgorithmInfo info) {
+void add(Offer<TouchstoneModuleFeaturePairs> offer, AlgorithmInfo info, Foretold&) {
   const TouchstoneModuleFeaturePairs& table = offer->table;
   expect_functions(*offer, {{"solve", table.solve != nullptr}});
   registry::add(CcdEntry{.info = std::move(info),

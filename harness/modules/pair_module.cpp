@@ -51,15 +51,14 @@ class PairModule final : public NarrowPhase {
   Instance<TouchstoneModulePairs> instance_;
 };
 
-// An entry has a plain function, which cannot hold a table: each table that says what it supports has a slot.
-std::vector<Offer<TouchstoneModulePairs>>& slots() {
-  static std::vector<Offer<TouchstoneModulePairs>> offers;
-  return offers;
+// An entry has a plain function, which cannot hold answers: each table that says what it supports has a slot.
+std::vector<Supports>& slots() {
+  static std::vector<Supports> supports;
+  return supports;
 }
 template <std::size_t slot>
 bool supports_in_slot(ShapeKind a, ShapeKind b, Task task) {
-  return slots()[slot]->table.supports(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
-                                       bit_of(task)) != 0;
+  return slots()[slot][supports_place(a, b, static_cast<std::size_t>(task))];
 }
 constexpr auto supports_functions = []<std::size_t... slot>(std::index_sequence<slot...>) {
   return std::array{&supports_in_slot<slot>...};
@@ -68,7 +67,7 @@ constexpr auto supports_functions = []<std::size_t... slot>(std::index_sequence<
 
 }  // namespace
 
-void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info) {
+void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info, Foretold& foretold) {
   const TouchstoneModulePairs& table = offer->table;
   expect_functions(*offer, {{"bind", table.bind != nullptr}, {"solve", table.solve != nullptr}});
   expect_bits(*offer, "tasks", table.tasks, 0b1111);
@@ -84,7 +83,12 @@ void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info) {
   const bool has_slot = table.supports != nullptr && slots().size() < registry::most_added;
   if (has_slot) entry.supports = supports_functions[slots().size()];
   registry::add(std::move(entry), registry::Timed::yes, offer->object->file().string());
-  if (has_slot) slots().push_back(offer);
+  if (!has_slot) return;
+  slots().push_back(
+      supports_of(foretold, all_tasks.size(), [&](ShapeKind a, ShapeKind b, std::size_t task) {
+        return table.supports(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                              bit_of(all_tasks[task])) != 0;
+      }));
 }
 
 }  // namespace touchstone::modules

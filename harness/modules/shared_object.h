@@ -1,12 +1,36 @@
 // A file that is loaded into the program, and the tables that it offers.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "algorithms/module/touchstone_module.h"
 
 namespace touchstone::modules {
+
+// What a module's own functions say before it is asked for an instance, such as which kinds a table takes. The process in
+// which the file is tried asks them, and the program reads the same answers in the same order: so a function that
+// crashes, hangs or exits does not end the program.
+class Foretold {
+ public:
+  Foretold(std::span<std::uint8_t> answers, bool asks) : answers_(answers), asks_(asks) {}
+  template <class Function>
+  bool answer(const Function& function) {
+    if (next_ == answers_.size()) return false;
+    std::uint8_t& answer = answers_[next_++];
+    if (asks_) answer = function() ? 1 : 0;
+    return answer != 0;
+  }
+
+ private:
+  std::span<std::uint8_t> answers_;
+  std::size_t next_ = 0;
+  bool asks_;
+};
 
 // Keeps the file loaded.
 class SharedObject {

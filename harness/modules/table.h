@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -19,6 +20,7 @@
 
 #include "algorithms/algorithm_info.h"
 #include "algorithms/core/outcome.h"
+#include "algorithms/core/shape.h"
 #include "harness/modules/shared_object.h"
 #include "harness/process/child_process.h"
 
@@ -28,7 +30,8 @@ namespace touchstone::modules {
 template <class Struct>
 Struct copy_of(const Struct& theirs, std::size_t least, const SharedObject& object,
                std::string_view what) {
-  if (theirs.struct_size < least) {
+  // A size that cuts a pointer in two is none.
+  if (theirs.struct_size < least || theirs.struct_size % alignof(Struct) != 0) {
     object.fail(fmt::format("{} has the struct_size {}; expected sizeof, which is {}", what,
                             theirs.struct_size, sizeof(Struct)));
   }
@@ -140,13 +143,37 @@ void expect_bits(const Kept<Table>& kept, std::string_view what, std::uint32_t b
                                 kept.name, what, bits, known));
 }
 
+// The most answers of `supports` that tables of one kind have: of two kinds of shapes, and tasks or whether bodies turn.
+inline constexpr std::size_t most_supports = all_shape_kinds.size() * all_shape_kinds.size() * 4;
+// By kinds and task, or kinds and whether bodies turn.
+using Supports = std::array<bool, most_supports>;
+constexpr std::size_t supports_place(ShapeKind a, ShapeKind b, std::size_t rest) {
+  return (static_cast<std::size_t>(a) * all_shape_kinds.size() + static_cast<std::size_t>(b)) * 4 +
+         rest;
+}
+// What `supports`, a function of two kinds and of `rest`, says of all with kind_a <= kind_b.
+template <class Function>
+Supports supports_of(Foretold& foretold, std::size_t rests, const Function& function) {
+  Supports supports{};
+  for (const ShapeKind a : all_shape_kinds) {
+    for (const ShapeKind b : all_shape_kinds) {
+      if (a > b) continue;
+      for (std::size_t rest = 0; rest < rests; ++rest) {
+        supports[supports_place(a, b, rest)] =
+            foretold.answer([&] { return function(a, b, rest); });
+      }
+    }
+  }
+  return supports;
+}
+
 // Each adds the entry of a table to the registry. Throws base::InputError where the table is wrong.
-void add(Offer<TouchstoneModuleBoxes> offer, AlgorithmInfo info);
-void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info);
-void add(Offer<TouchstoneModuleRays> offer, AlgorithmInfo info);
-void add(Offer<TouchstoneModulePoints> offer, AlgorithmInfo info);
-void add(Offer<TouchstoneModuleMeshes> offer, AlgorithmInfo info);
-void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info);
-void add(Offer<TouchstoneModuleFeaturePairs> offer, AlgorithmInfo info);
+void add(Offer<TouchstoneModuleBoxes> offer, AlgorithmInfo info, Foretold& foretold);
+void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info, Foretold& foretold);
+void add(Offer<TouchstoneModuleRays> offer, AlgorithmInfo info, Foretold& foretold);
+void add(Offer<TouchstoneModulePoints> offer, AlgorithmInfo info, Foretold& foretold);
+void add(Offer<TouchstoneModuleMeshes> offer, AlgorithmInfo info, Foretold& foretold);
+void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info, Foretold& foretold);
+void add(Offer<TouchstoneModuleFeaturePairs> offer, AlgorithmInfo info, Foretold& foretold);
 
 }  // namespace touchstone::modules

@@ -13,10 +13,8 @@
 
 namespace {
 
-// In memory where that is to be had: each input is written as a file.
 std::filesystem::path folder_of_this_process() {
-  std::string name = std::filesystem::is_directory("/dev/shm") ? "/dev/shm/touchstone-XXXXXX"
-                                                               : "/tmp/touchstone-XXXXXX";
+  std::string name = (std::filesystem::temp_directory_path() / "touchstone-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   return name;
 }

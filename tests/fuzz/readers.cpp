@@ -195,8 +195,10 @@ Trial::Trial(const Reader& reader, fs::path folder) : reader_(reader), folder_(s
 
 std::string Trial::fault(std::string_view bytes) const {
   const fs::path file = folder_ / reader_.file;
-  std::ofstream(file, std::ios::binary)
-      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::ofstream stream(file, std::ios::binary);
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (!stream) throw std::logic_error(file.string() + " cannot be written");
   try {
     reader_.read(file);
   } catch (const base::InputError& error) {

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -31,8 +32,9 @@ std::string shape_text(const py::array& array) {
   return text + ")";
 }
 
-// Throws unless the array has this shape; -1 stands for any length.
+// Throws unless the array has this shape; -1 stands for any length. An empty list is an array of no rows.
 void check(const py::array& array, std::initializer_list<py::ssize_t> shape, const char* what) {
+  if (array.ndim() == 1 && array.shape(0) == 0 && *shape.begin() <= 0) return;
   bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
   std::string expected;
   py::ssize_t k = 0;
@@ -44,6 +46,43 @@ void check(const py::array& array, std::initializer_list<py::ssize_t> shape, con
   if (fits) return;
   throw ts::Error("found " + std::string(what) + " of the shape " + shape_text(array) +
                   "; expected (" + expected + ")");
+}
+
+// Numbers of any kind. Throws for what is no array of numbers.
+Doubles doubles_of(const py::object& given, const char* what) {
+  const Doubles array = Doubles::ensure(given);
+  if (array) return array;
+  PyErr_Clear();
+  throw ts::Error("found no array of numbers as " + std::string(what) + "; expected one");
+}
+
+// Integers from 0 to the greatest of the type. Throws for others: none is rounded or cut.
+template <class Array>
+Array integers_of(const py::object& given, const char* what) {
+  using Integer = typename Array::value_type;
+  const py::array array = py::array::ensure(given);
+  if (!array) {
+    PyErr_Clear();
+    throw ts::Error("found no array as " + std::string(what) + "; expected one of integers");
+  }
+  if (array.size() == 0) return Array(array);
+  const char kind = array.dtype().kind();
+  bool fits = kind == 'u' || kind == 'i';
+  if (fits && kind == 'i') {
+    const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
+    fits = std::all_of(wide.data(), wide.data() + wide.size(), [](std::int64_t number) {
+      return number >= 0 &&
+             static_cast<std::uint64_t>(number) <= std::numeric_limits<Integer>::max();
+    });
+  } else if (fits) {
+    const auto wide = py::array_t<std::uint64_t, py::array::c_style | py::array::forcecast>(array);
+    fits = std::all_of(wide.data(), wide.data() + wide.size(), [](std::uint64_t number) {
+      return number <= std::numeric_limits<Integer>::max();
+    });
+  }
+  if (fits) return Array(array);
+  throw ts::Error("found " + std::string(what) +
+                  " that are no integers of at least 0, or too great; expected such");
 }
 
 ts::Vec3 vec(const double* numbers) { return {numbers[0], numbers[1], numbers[2]}; }
@@ -74,11 +113,12 @@ ts::Pose pose_of(const py::object& given) {
   if (given.is_none()) return {};
   if (py::isinstance<py::tuple>(given) && py::len(given) == 2) {
     const auto both = given.cast<py::tuple>();
-    const auto rotation = both[0].cast<Doubles>();
+    const Doubles rotation = doubles_of(both[0], "a rotation");
     check(rotation, {3, 3}, "a rotation");
-    return pose_of(rotation.data(), 3, vec_of(both[1].cast<Doubles>(), "a translation"));
+    return pose_of(rotation.data(), 3,
+                   vec_of(doubles_of(both[1], "a translation"), "a translation"));
   }
-  const auto matrix = given.cast<Doubles>();
+  const Doubles matrix = doubles_of(given, "a pose");
   check(matrix, {4, 4}, "a pose");
   return pose_of_matrix(matrix.data());
 }
@@ -116,7 +156,8 @@ py::dtype result_dtype() {
 struct Bodies {
   std::vector<ts::Body> bodies;
 
-  Bodies(const std::vector<ts::Shape>& shapes, const Places& shape_of, const Doubles& poses) {
+  Bodies(const std::vector<ts::Shape>& shapes, const py::object& places, const Doubles& poses) {
+    const auto shape_of = integers_of<Places>(places, "shape_of");
     check(shape_of, {-1}, "shape_of");
     const py::ssize_t count = shape_of.shape(0);
     check(poses, {count, 4, 4}, "poses");
@@ -138,7 +179,8 @@ struct Bodies {
 };
 
 py::array ask_many(ts::Solver& solver, const std::string& question, const Bodies& bodies,
-                   const Places& pairs) {
+                   const py::object& rows) {
+  const auto pairs = integers_of<Places>(rows, "pairs");
   check(pairs, {-1, 2}, "pairs");
   static const auto& dtype = *new py::dtype(result_dtype());  // Python ends before statics do
   const auto count = static_cast<std::size_t>(pairs.shape(0));
@@ -146,10 +188,7 @@ py::array ask_many(ts::Solver& solver, const std::string& question, const Bodies
   std::vector<ts::IndexPair> asked(count);
   if (count != 0) std::memcpy(asked.data(), pairs.data(), count * sizeof(ts::IndexPair));
   std::vector<ts::Result> results(count);
-  {
-    const py::gil_scoped_release release;
-    solver.ask(question_of(question), bodies.bodies, asked, results);
-  }
+  solver.ask(question_of(question), bodies.bodies, asked, results);
   return {dtype, {count}, {}, results.data()};  // a copy
 }
 
@@ -162,8 +201,37 @@ ts::Handle handle_of(std::uint64_t number) {
 
 ts::Box box_of(const double* numbers) { return {vec(numbers), vec(numbers + 3)}; }
 
+// So that a wrong row changes nothing.
+void check_boxes(const Doubles& boxes) {
+  for (py::ssize_t i = 0; i < boxes.shape(0); ++i) {
+    const double* const box = boxes.data() + 6 * i;
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double most = std::numeric_limits<float>::max();
+      if (-most <= box[axis] && box[axis] <= box[axis + 3] && box[axis + 3] <= most) continue;
+      throw ts::Error("found a wrong box in row " + std::to_string(i) +
+                      "; expected finite floats, minimum <= maximum");
+    }
+  }
+}
+
+// So that a wrong handle changes nothing.
+void check_handles(const ts::World& world, const Handles& handles) {
+  std::vector<std::uint64_t> all(handles.data(), handles.data() + handles.size());
+  for (const std::uint64_t one : all) {
+    if (!world.contains(handle_of(one))) {
+      throw ts::Error("found the handle " + std::to_string(one) +
+                      ", which no body has; expected one of a body in this world");
+    }
+  }
+  std::sort(all.begin(), all.end());
+  if (std::adjacent_find(all.begin(), all.end()) != all.end()) {
+    throw ts::Error("found a handle twice; expected each once");
+  }
+}
+
 Handles insert_boxes(ts::World& world, const Doubles& boxes) {
   check(boxes, {-1, 6}, "boxes");
+  check_boxes(boxes);
   Handles handles(boxes.shape(0));
   for (py::ssize_t i = 0; i < boxes.shape(0); ++i) {
     handles.mutable_at(i) = number(world.insert(box_of(boxes.data() + 6 * i)));
@@ -171,16 +239,21 @@ Handles insert_boxes(ts::World& world, const Doubles& boxes) {
   return handles;
 }
 
-void move_boxes(ts::World& world, const Handles& handles, const Doubles& boxes) {
+void move_boxes(ts::World& world, const py::object& bodies, const Doubles& boxes) {
+  const auto handles = integers_of<Handles>(bodies, "handles");
   check(handles, {-1}, "handles");
   check(boxes, {handles.shape(0), 6}, "boxes");
+  check_handles(world, handles);
+  check_boxes(boxes);
   for (py::ssize_t i = 0; i < handles.shape(0); ++i) {
     world.move(handle_of(handles.at(i)), box_of(boxes.data() + 6 * i));
   }
 }
 
-void remove_all(ts::World& world, const Handles& handles) {
+void remove_all(ts::World& world, const py::object& bodies) {
+  const auto handles = integers_of<Handles>(bodies, "handles");
   check(handles, {-1}, "handles");
+  check_handles(world, handles);
   for (py::ssize_t i = 0; i < handles.shape(0); ++i) world.remove(handle_of(handles.at(i)));
 }
 
@@ -327,7 +400,7 @@ PYBIND11_MODULE(touchstone, module) {
       .def_property_readonly("point", [](const ts::CastResult& r) { return array_of(r.point); });
 
   py::class_<Bodies>(module, "Bodies", "Many bodies, for Solver.ask.")
-      .def(py::init<const std::vector<ts::Shape>&, const Places&, const Doubles&>(),
+      .def(py::init<const std::vector<ts::Shape>&, const py::object&, const Doubles&>(),
            py::arg("shapes"), py::arg("shape_of"), py::arg("poses"),
            "Body i has shapes[shape_of[i]] and the matrix poses[i]. shape_of: (n,); poses: (n, 4, "
            "4)")
@@ -426,7 +499,7 @@ PYBIND11_MODULE(touchstone, module) {
           "body",
           [](const ts::World& world, std::uint64_t body) { return world.body(handle_of(body)); },
           py::arg("body"))
-      .def("update", &ts::World::update, py::call_guard<py::gil_scoped_release>())
+      .def("update", &ts::World::update)
       .def("pairs", &pairs_of, "All pairs of boxes that overlap: (m, 2) handles.")
       .def(
           "changes",

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/base/error.h"
@@ -34,6 +35,9 @@ struct ImportOptions {
 };
 
 fs::path whole_path(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
+
+// Whether a path, relative to a folder, leads out of it.
+bool is_outside(const fs::path& relative) { return relative.empty() || *relative.begin() == ".."; }
 
 std::string ending_of(const fs::path& file) {
   std::string ending = file.extension().string();
@@ -121,14 +125,14 @@ fs::path folder_of(const std::set<fs::path>& read) {
   fs::path folder = read.begin()->parent_path();
   std::set<std::string> packages;
   for (const fs::path& file : read) {
-    while (file.lexically_relative(folder).string().starts_with(".."))
-      folder = folder.parent_path();
+    while (is_outside(file.lexically_relative(folder))) folder = folder.parent_path();
     if (ending_of(file) != ".urdf") continue;
-    static const std::regex package("(package|model)://([^/\"]+)/");
     const std::string text = files::read_text(file);
-    for (auto at = std::sregex_iterator(text.begin(), text.end(), package);
-         at != std::sregex_iterator(); ++at) {
-      packages.insert((*at)[2]);
+    constexpr std::string_view mark = "://";
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+      const std::size_t name = at + mark.size(), end = text.find_first_of("/\"", name);
+      if (end != std::string::npos && text[end] == '/')
+        packages.insert(text.substr(name, end - name));
     }
   }
   fs::path outer = folder;
@@ -157,10 +161,9 @@ class Copies {
     if (target != targets_.end()) return target->second.lexically_relative(folder).generic_string();
     const fs::path inside = path.lexically_relative(from_);
     const bool holds = std::ranges::any_of(targets_, [&](const auto& copy) {
-      const std::string rest = copy.first.lexically_relative(path).string();
-      return !rest.empty() && !rest.starts_with("..");
+      return !is_outside(copy.first.lexically_relative(path));
     });
-    if (!holds || inside.empty() || inside.string().starts_with("..")) return "";
+    if (!holds || is_outside(inside)) return "";
     return (to_ / inside).lexically_normal().lexically_relative(folder).generic_string();
   }
 
@@ -168,13 +171,17 @@ class Copies {
   std::string with_names(std::string text, const fs::path& was_in, const fs::path& is_in) const {
     std::map<std::string, std::string> names;
     collect(toml::parse(text), was_in, is_in, names);
-    for (const auto& [old_name, new_name] : names) {
-      for (const char quote : {'"', '\''}) {
-        const std::string old_word = quote + old_name + quote, new_word = "\"" + new_name + "\"";
-        for (auto at = text.find(old_word); at != std::string::npos;
-             at = text.find(old_word, at + new_word.size())) {
-          text.replace(at, old_word.size(), new_word);
-        }
+    // In one pass, so that a new name is not taken for an old one.
+    for (std::size_t at = 0; at < text.size(); ++at) {
+      const char quote = text[at];
+      if (quote != '"' && quote != '\'') continue;
+      for (const auto& [old_name, new_name] : names) {
+        if (text.compare(at, old_name.size() + 2, quote + old_name + quote) != 0) continue;
+        std::ostringstream word;
+        word << toml::value<std::string>(new_name);  // with what TOML escapes
+        text.replace(at, old_name.size() + 2, word.str());
+        at += word.str().size() - 1;
+        break;
       }
     }
     return text;
@@ -339,8 +346,15 @@ void import_scene(const ImportOptions& options) {
     write_copy(out / name, files::read_text(licence));
   }
   write_copy(scene_file, copies.with_names(text, was_in, out));
-  const std::string hash = scene::scene_hash(scene),
-                    copied = scene::scene_hash(scene::load_scene(scene_file));
+  const scene::Scene again = scene::load_scene(scene_file);
+  for (const fs::path& file : again.files) {
+    if (!is_outside(whole_path(file).lexically_relative(out))) continue;
+    throw base::InputError(options.files[0], 0,
+                           fmt::format("names {} by a whole path; expected one that begins at the "
+                                       "file which names it",
+                                       file.string()));
+  }
+  const std::string hash = scene::scene_hash(scene), copied = scene::scene_hash(again);
   if (hash != copied) {
     throw base::InputError(options.files[0], 0,
                            fmt::format("the folder has another scene ({}, and not {}); expected "
@@ -361,7 +375,8 @@ void add_scene_import(Arguments command) {
           "FILE", options->files,
           "A scene (.toml, .json of rigid-ipc, .urdf, .aabbs), or parts of one: a log of poses or "
           "configurations (.csv), an SRDF file, a planning scene or request (.yaml), meshes")
-      .required();
+      .required()
+      .is_read();
   command.text("--out", options->out, "The folder to make").required();
   command.footer(
       "The folder holds all that its scene.toml needs. A licence is what a file names, or the "

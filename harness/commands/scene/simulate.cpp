@@ -79,7 +79,9 @@ void simulate_scene(const SimulateOptions& options) {
 
 void add_scene_simulate(Arguments command) {
   const auto options = std::make_shared<SimulateOptions>();
-  command.text("SCENE", options->scene, "Scene file: .toml or .json (rigid-ipc)").required();
+  command.text("SCENE", options->scene, "Scene file: .toml or .json (rigid-ipc)")
+      .required()
+      .is_read();
   command
       .text("--out", options->out,
             "The poses (CSV), as a scene's `poses` reads them; the scene is written beside it, as "

@@ -98,9 +98,14 @@ class Pairs(unittest.TestCase):
                       lambda: ts.distance(ball, ts.Body(ts.Shape.sphere(1), at(math.nan))),
                       lambda: ts.Solver("gkj"), lambda: ts.Solver(margin=-1), lambda: bool(ts.distance(ball, ball)),
                       lambda: ts.Bodies([], [0], [np.eye(4)]), lambda: ts.Bodies([ball.shape], [0], np.eye(4)),
+                      lambda: ts.Body(ball.shape, "x"), lambda: ts.Body(ball.shape, [[1], [2, 3]]),
+                      lambda: ts.Bodies([ball.shape], [0.9], [np.eye(4)]), lambda: ts.Bodies([ball.shape], [-1], [np.eye(4)]),
+                      lambda: ts.Solver().ask("distance", ts.Bodies([ball.shape], [0, 0], [np.eye(4)] * 2), [[2**32, 1]]),
                       lambda: ts.Solver().ask("far", ts.Bodies([], [], np.zeros((0, 4, 4))), np.zeros((0, 2))),
                       lambda: ts.Solver().ask("distance", ts.Bodies([], [], np.zeros((0, 4, 4))), [[0, 1]])):
             self.assertRaises(ts.Error, wrong)
+        none = ts.Bodies([], [], [])
+        self.assertEqual((len(none), len(ts.Solver().ask("distance", none, []))), (0, 0))
         with self.assertRaisesRegex(ts.Error, r"found a pose of the shape \(3, 3\); expected \(4, 4\)"):
             ts.Body(ts.Shape.sphere(1), np.eye(3))
 
@@ -134,6 +139,16 @@ class Worlds(unittest.TestCase):
         self.assertEqual(found(began), expected() - before)
         self.assertEqual(found(ended), before - expected())
         self.assertTrue(len(began) > 0 and len(ended) > 0)
+        # What is wrong changes nothing.
+        for wrong in (lambda: world.insert_boxes([[0, 0, 0, 1, 1, 1], [math.nan] * 6]),
+                      lambda: world.move_boxes(handles[:2], [[0, 0, 0, 1, 1, 1], [0, 0, 0, -1, 1, 1]]),
+                      lambda: world.remove(np.array([handles[0], handles[0]])),
+                      lambda: world.remove(handles[:2].astype(float))):
+            self.assertRaises(ts.Error, wrong)
+        self.assertEqual(len(world), 300)
+        world.update()
+        self.assertEqual(found(world.pairs()), expected())
+        self.assertEqual(len(world.insert_boxes([])), 0)
         world.remove(handles)
         self.assertEqual(len(world), 0)
         self.assertNotIn(int(handles[0]), world)

@@ -124,6 +124,13 @@ TEST_F(Import, WhatIsNoSceneIsRefusedAndLeavesNothing) {
     expect_refusal("scene import " + files + " --out " + path("made"), text, folder_);
   };
   refuse(path("none.toml"), "none.toml");
+  // A file that the robot names by a whole path would stay outside.
+  folder_.write("mine/part.obj",
+                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  folder_.write("mine/robot.urdf",
+                "<robot name=\"r\"><link name=\"l\"><collision><geometry><mesh filename=\"file://" +
+                    path("mine/part.obj") + "\"/></geometry></collision></link></robot>");
+  refuse(path("mine/robot.urdf"), "by a whole path");
   refuse(path("mine/b.txt"), "unknown kind of file");
   refuse(path("mine/bad.toml"), "none.obj");
   refuse(path("mine/a.csv"), "missing; expected generator");

@@ -98,7 +98,7 @@ std::uint32_t find_pairs(void* instance, TouchstoneModuleSink* sink) {
 
 TouchstoneModuleBoxes box_table() {
   TouchstoneModuleBoxes table{};
-  table.struct_size = fault == "small" ? 12 : sizeof table;
+  table.struct_size = fault == "small" ? 12 : fault == "cut" ? sizeof table - 4 : sizeof table;
   table.name = fault == "bad_name"     ? "My Boxes"
                : fault == "group_name" ? "ours"
                : fault == "taken"      ? "naive"
@@ -125,6 +125,7 @@ TouchstoneModulePairs pair_table() {
   table.create = [](const TouchstoneModulePairSettings*) -> void* { return new Spheres; };
   table.destroy = [](void* instance) { delete static_cast<Spheres*>(instance); };
   table.supports = [](std::uint32_t a, std::uint32_t b, std::uint32_t) {
+    misbehave("_at_supports");
     return a == TOUCHSTONE_MODULE_SPHERE && b == TOUCHSTONE_MODULE_SPHERE ? 1 : 0;
   };
   table.bind = [](void* instance, const TouchstoneModuleShape* const* shapes, std::size_t) {
@@ -152,8 +153,9 @@ const TouchstoneModule* touchstone_module(std::uint32_t) {
   static TouchstoneModule offer{};
   offer.struct_size = fault == "tiny" ? 4 : sizeof offer;
   offer.abi = fault == "wrong_version" ? 77 : TOUCHSTONE_MODULE_ABI;
+  static const auto* const wild = reinterpret_cast<const TouchstoneModuleBoxes*>(16);
   if (fault != "empty") {
-    offer.boxes = boxes;
+    offer.boxes = fault == "wild_table" ? &wild : boxes;
     offer.pairs = pairs;
   }
   if (fault == "starts_thread")

@@ -62,6 +62,7 @@ TEST(Modules, WrongTablesAreRefused) {
     expect_fault(built_module(folder.path(), fault), text);
   };
   expect_refused("small", "broad phases has the struct_size 12");
+  expect_refused("cut", "has the struct_size");
   expect_refused("null_function", "'mine-boxes': its function find_pairs is NULL");
   expect_refused("bad_name", "the name of one of its broad phases: found 'My Boxes'");
   expect_refused("group_name", "found 'ours', which means several algorithms");
@@ -80,6 +81,10 @@ TEST(Modules, AFileThatFailsWhenItIsLoadedCostsAMessage) {
   expect_refused("throws_at_call", "touchstone_module() threw: thrown by the module");
   expect_refused("throws_number_at_call", "threw something that is no std::exception");
   expect_refused("hangs_at_call", "no answer in time");
+  expect_refused("wild_table", "killed by signal 11");
+  expect_refused("crashes_at_supports", "killed by signal 11");
+  expect_refused("exits_at_supports", "left by exit(0)");
+  expect_refused("throws_at_supports", "throws when it is asked what it supports");
 }
 
 TEST(Modules, AWordWithASlashOrAnEndingIsAFile) {

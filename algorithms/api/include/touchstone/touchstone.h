@@ -111,8 +111,9 @@ typedef struct touchstone_world_options {
   size_t struct_size;      /* set by the caller */
   const char* broad_phase; /* NULL: "auto" */
   int32_t threads;         /* at least 1 */
+  int32_t reserved;        /* 0 */
 } touchstone_world_options;
-#define TOUCHSTONE_WORLD_OPTIONS_INIT {sizeof(touchstone_world_options), NULL, 1}
+#define TOUCHSTONE_WORLD_OPTIONS_INIT {sizeof(touchstone_world_options), NULL, 1, 0}
 
 /* A body of a world. A handle of a removed body is never that of another. */
 typedef struct touchstone_handle {

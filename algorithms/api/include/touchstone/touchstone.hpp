@@ -199,10 +199,11 @@ TOUCHSTONE_NAMESPACE_V1 {
   };
 
   // Asks algorithms about pairs of bodies. Algorithms prepare each shape once, and a solver keeps what they prepared:
-  //  - A shape that `prepare` was given costs nothing at a call but a look into a table.
+  //  - Shapes that `prepare` was given are prepared by an algorithm when it is first asked, all of them at once. From
+  //    then on they cost a look into a table.
   //  - Another shape is prepared at the first call that meets it, and with it the others that were met so:
   //    microseconds. When more than 64 were met, all these are forgotten, and met again.
-  // A call with known shapes allocates no memory. It costs the algorithm's time, two copies of a pose and one of the
+  // A call with shapes that its algorithm has prepared allocates no memory. It costs the algorithm's time, two copies of a pose and one of the
   // result.
   class TOUCHSTONE_API Solver {
    public:
@@ -212,7 +213,8 @@ TOUCHSTONE_NAMESPACE_V1 {
     Solver(Solver&&) noexcept;
     Solver& operator=(Solver&&) noexcept;
 
-    // Prepares these shapes, in place of those of the last call, until the next call or the end.
+    // Keeps these shapes, in place of those of the last call, until the next call or the end. A pair of one of them and
+    // of another shape counts as two other shapes.
     void prepare(std::span<const Shape> shapes);
 
     Result ask(Question question, const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
@@ -335,10 +337,11 @@ TOUCHSTONE_NAMESPACE_V1 {
       std::span<const HandlePair> began, ended;
     };
     // The pairs that began and ended since the last call; at the first, all have begun. A pair of a removed body
-    // ends. The lists are there until the next call that is not const.
+    // ends. Whoever calls it once calls it after each update: slots of removed bodies wait until it said so. The lists are there until the next call that is not const.
     Changes changes();
 
-    // The first body with a shape that the ray meets. Bodies are solid. The first ray after bodies came or went costs a
+    // The first body with a shape that the ray meets. Bodies are solid. While the matrix of one has no inverse, every ray
+    // is `unsupported`. The first ray after bodies came or went costs a
     // build of a tree, and after bodies moved its refit.
     RayHit ray(const Ray& ray);
     void rays(std::span<const Ray> rays, std::span<RayHit> hits);  // of the same length
