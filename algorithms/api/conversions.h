@@ -48,8 +48,7 @@ inline bool is_finite(const Vec3& v) {
 
 // Both poses are twelve doubles: the matrix column by column, then the translation.
 static_assert(sizeof(Pose) == 12 * sizeof(double) && sizeof(touchstone::Pose) == sizeof(Pose));
-static_assert(offsetof(Pose, translation) == 9 * sizeof(double) &&
-              !Mat3d::IsRowMajor);
+static_assert(offsetof(Pose, translation) == 9 * sizeof(double) && !Mat3d::IsRowMajor);
 inline void write_inner(const Pose& pose, touchstone::Pose& inner) {
   std::memcpy(static_cast<void*>(&inner), &pose, sizeof pose);
 }

@@ -60,12 +60,13 @@ extern "C" {
 
 /* How an answer came about; a uint8_t in answers. */
 enum {
-  TOUCHSTONE_MODULE_OK = 0,            /* the module stands by its answer */
-  TOUCHSTONE_MODULE_NOT_CONVERGED = 1, /* the iteration cap or the end of the scalar's precision came first */
-  TOUCHSTONE_MODULE_DEGENERATE = 2,    /* the input is beyond what the algorithm can decide */
-  TOUCHSTONE_MODULE_CAPACITY = 3,      /* a fixed store was full */
-  TOUCHSTONE_MODULE_UNSUPPORTED = 4,   /* it does not take such a question */
-  TOUCHSTONE_MODULE_NOT_REPORTED = 5   /* what it wraps cannot report whether it failed */
+  TOUCHSTONE_MODULE_OK = 0, /* the module stands by its answer */
+  /* the iteration cap or the end of the scalar's precision came first */
+  TOUCHSTONE_MODULE_NOT_CONVERGED = 1,
+  TOUCHSTONE_MODULE_DEGENERATE = 2,  /* the input is beyond what the algorithm can decide */
+  TOUCHSTONE_MODULE_CAPACITY = 3,    /* a fixed store was full */
+  TOUCHSTONE_MODULE_UNSUPPORTED = 4, /* it does not take such a question */
+  TOUCHSTONE_MODULE_NOT_REPORTED = 5 /* what it wraps cannot report whether it failed */
 };
 
 /* What is calculated in; bits of `scalars`, and a value in settings. */
@@ -94,11 +95,12 @@ enum {
 typedef struct TouchstoneModuleShape {
   uint32_t struct_size;
   uint32_t kind;
-  double radius;          /* sphere, capsule, cylinder, cone */
-  double half_length;     /* capsule: half of the straight part; cylinder; cone: base at -half_length, tip at +half_length */
+  double radius; /* sphere, capsule, cylinder, cone */
+  /* capsule: half of the straight part; cylinder; cone: base at -half_length, tip at +half_length */
+  double half_length;
   double half_extents[3]; /* box */
   double radii[3];        /* ellipsoid */
-  double normal[3];       /* half-space: the points with normal . x <= offset; not zero, of any length */
+  double normal[3]; /* half-space: the points with normal . x <= offset; not zero, of any length */
   double offset;
   /* Hull: the convex hull of the vertices (x, y, z each), at least one. A point, a segment and a flat set are hulls too. */
   uint32_t vertex_count;
@@ -161,14 +163,16 @@ typedef struct TouchstoneModuleBoxSettings {
   uint32_t threads; /* at most so many threads may work, the caller's among them; >= 1 */
   /* Calls body(data, task, worker) for each task below `tasks`, on the program's threads, and returns when all are done.
    * worker < threads. Such threads are pinned and awake, so use them rather than threads of your own. */
-  void (*run)(void* host, size_t tasks, void (*body)(void* data, size_t task, uint32_t worker), void* data);
+  void (*run)(void* host, size_t tasks, void (*body)(void* data, size_t task, uint32_t worker),
+              void* data);
   void* host; /* the first argument of run */
 } TouchstoneModuleBoxSettings;
 
 /* It is called as build, find_pairs, then (update, find_pairs) for each further frame. build may come again at any time. */
 typedef struct TouchstoneModuleBoxes {
   uint32_t struct_size, reserved;
-  const char* name;     /* small letters, digits and '-': unique among algorithms of the kind, of all modules too */
+  /* small letters, digits and '-': unique among algorithms of the kind, of all modules too */
+  const char* name;
   const char* citation; /* who, what, where, when; one line */
   void* (*create)(const TouchstoneModuleBoxSettings* settings); /* NULL: it cannot be made */
   void (*destroy)(void* instance);
@@ -186,10 +190,12 @@ typedef struct TouchstoneModuleBoxes {
 
 /* What is asked; bits of `tasks`, and a value in a batch. */
 enum {
-  TOUCHSTONE_MODULE_INTERSECT = 1,   /* do the closed bodies share a point? the answer alone */
-  TOUCHSTONE_MODULE_DISTANCE = 2,    /* the distance of bodies that are apart, with normal and witness points */
-  TOUCHSTONE_MODULE_PENETRATION = 4, /* the depth of bodies that overlap, with normal and witness points */
-  TOUCHSTONE_MODULE_SIGNED = 8       /* both */
+  TOUCHSTONE_MODULE_INTERSECT = 1, /* do the closed bodies share a point? the answer alone */
+  /* the distance of bodies that are apart, with normal and witness points */
+  TOUCHSTONE_MODULE_DISTANCE = 2,
+  /* the depth of bodies that overlap, with normal and witness points */
+  TOUCHSTONE_MODULE_PENETRATION = 4,
+  TOUCHSTONE_MODULE_SIGNED = 8 /* both */
 };
 
 enum {
@@ -224,9 +230,10 @@ static inline void touchstone_module_clear(TouchstoneModuleOutcome* outcome) {
 
 typedef struct TouchstoneModulePairSettings {
   uint32_t struct_size;
-  uint32_t scalar;        /* TOUCHSTONE_MODULE_FLOAT or _DOUBLE, one that the table offers */
-  double tolerance;       /* error at which it may stop, as a part of the pair's size; NaN: its own */
-  int32_t max_iterations; /* of each loop; 0: its own. A query that needs more is TOUCHSTONE_MODULE_NOT_CONVERGED */
+  uint32_t scalar;  /* TOUCHSTONE_MODULE_FLOAT or _DOUBLE, one that the table offers */
+  double tolerance; /* error at which it may stop, as a part of the pair's size; NaN: its own */
+  /* of each loop; 0: its own. A query that needs more is TOUCHSTONE_MODULE_NOT_CONVERGED */
+  int32_t max_iterations;
   int32_t reserved;
 } TouchstoneModulePairSettings;
 
@@ -245,7 +252,8 @@ typedef struct TouchstoneModulePairs {
   uint32_t struct_size;
   uint32_t tasks;   /* bits: what it answers */
   uint32_t scalars; /* bits: what it calculates in. Poses and shapes are doubles in either case */
-  uint32_t approximate;    /* 1: it answers for more than the bodies by design, so "overlapping" is no promise */
+  /* 1: it answers for more than the bodies by design, so "overlapping" is no promise */
+  uint32_t approximate;
   uint32_t depth_is_bound; /* 1: its depth is that of some translation that separates, by design */
   uint32_t reserved;
   const char* name; /* as of boxes */
@@ -257,7 +265,8 @@ typedef struct TouchstoneModulePairs {
   /* Prepares the shapes. May come again, with others in their place. */
   void (*bind)(void* instance, const TouchstoneModuleShape* const* shapes, size_t count);
   /* Writes outcomes[i] for each pair. */
-  void (*solve)(void* instance, const TouchstoneModulePairBatch* batch, TouchstoneModuleOutcome* outcomes);
+  void (*solve)(void* instance, const TouchstoneModulePairBatch* batch,
+                TouchstoneModuleOutcome* outcomes);
 } TouchstoneModulePairs;
 
 /* --- ray and point: queries of a mesh of triangles ------------------------------------------------------------------ */
@@ -265,7 +274,8 @@ typedef struct TouchstoneModulePairs {
 /* The union of closed triangles. Triangles may be degenerate, and there may be none. */
 typedef struct TouchstoneModuleMesh {
   uint32_t struct_size;
-  uint32_t solid; /* 1: the points around which the closed surface winds belong to the body too (kind mesh) */
+  /* 1: the points around which the closed surface winds belong to the body too (kind mesh) */
+  uint32_t solid;
   const double* vertices;    /* x, y, z each; metres */
   const uint32_t* triangles; /* three vertices each */
   size_t vertex_count, triangle_count;
@@ -285,7 +295,8 @@ typedef struct TouchstoneModuleRay {
 typedef struct TouchstoneModuleHit {
   uint8_t hit, status; /* hit: 0 or 1 */
   uint32_t triangle;
-  double t, u, v; /* the point is vertex 0 + u * (vertex 1 - vertex 0) + v * (vertex 2 - vertex 0) */
+  double t, u,
+      v; /* the point is vertex 0 + u * (vertex 1 - vertex 0) + v * (vertex 2 - vertex 0) */
 } TouchstoneModuleHit;
 
 typedef struct TouchstoneModuleRaySettings {
@@ -336,16 +347,17 @@ typedef struct TouchstoneModulePoints {
   void* (*create)(const TouchstoneModulePointSettings* settings);
   void (*destroy)(void* instance);
   void (*bind)(void* instance, const TouchstoneModuleMesh* mesh); /* may come again */
-  void (*query)(void* instance, uint32_t task, const double* points /* x, y, z each */, size_t count,
-                TouchstoneModulePointAnswer* answers);
+  void (*query)(void* instance, uint32_t task, const double* points /* x, y, z each */,
+                size_t count, TouchstoneModulePointAnswer* answers);
 } TouchstoneModulePoints;
 
 /* --- mesh: collision of two meshes ------------------------------------------------------------------------------------ */
 
 enum {
   TOUCHSTONE_MODULE_MESH_INTERSECT = 1,
-  TOUCHSTONE_MODULE_MESH_DISTANCE = 2, /* with witness points; only the answer if they share a point */
-  TOUCHSTONE_MODULE_MESH_CONTACTS = 4  /* all pairs of triangles that share a point */
+  /* with witness points; only the answer if they share a point */
+  TOUCHSTONE_MODULE_MESH_DISTANCE = 2,
+  TOUCHSTONE_MODULE_MESH_CONTACTS = 4 /* all pairs of triangles that share a point */
 };
 
 typedef struct TouchstoneModuleMeshSettings {
@@ -365,8 +377,9 @@ typedef struct TouchstoneModuleMeshes {
   void (*bind)(void* instance, const TouchstoneModuleMesh* const* bodies, size_t count);
   /* Writes the outcome of bodies a and b, at these poses: separated, or overlapping if they share a point, a touch included.
    * With _MESH_CONTACTS the sink gets each pair of triangles (of a, of b) that share a point once, in any order. */
-  void (*solve)(void* instance, uint32_t task, uint32_t a, const TouchstoneModulePose* pose_a, uint32_t b,
-                const TouchstoneModulePose* pose_b, TouchstoneModuleOutcome* outcome, TouchstoneModuleSink* pairs);
+  void (*solve)(void* instance, uint32_t task, uint32_t a, const TouchstoneModulePose* pose_a,
+                uint32_t b, const TouchstoneModulePose* pose_b, TouchstoneModuleOutcome* outcome,
+                TouchstoneModuleSink* pairs);
 } TouchstoneModuleMeshes;
 
 /* --- cast: the first time at which two moving convex bodies touch ----------------------------------------------------- */
@@ -386,15 +399,15 @@ typedef struct TouchstoneModuleCastOutcome {
   uint8_t answer, status;
   double toi;          /* the first time of contact */
   double lower, upper; /* certified bounds on it, or NaN */
-  double normal[3];    /* the unit vector from a to b at that time, world axes; may be NaN at time 0 */
-  double point[3];     /* where they touch, in the world; may be NaN at time 0 */
-  int32_t iterations;  /* -1: not counted */
+  double normal[3]; /* the unit vector from a to b at that time, world axes; may be NaN at time 0 */
+  double point[3];  /* where they touch, in the world; may be NaN at time 0 */
+  int32_t iterations; /* -1: not counted */
 } TouchstoneModuleCastOutcome;
 
 typedef struct TouchstoneModuleCastSettings {
   uint32_t struct_size;
   uint32_t scalar;
-  double tolerance; /* metres; NaN: its own */
+  double tolerance;       /* metres; NaN: its own */
   int32_t max_iterations; /* 0: its own */
   int32_t reserved;
 } TouchstoneModuleCastSettings;
@@ -421,7 +434,8 @@ typedef struct TouchstoneModuleCasts {
   void (*destroy)(void* instance);
   int (*supports)(uint32_t kind_a, uint32_t kind_b, int turns); /* NULL: all */
   void (*bind)(void* instance, const TouchstoneModuleShape* const* shapes, size_t count);
-  void (*solve)(void* instance, const TouchstoneModuleCastBatch* batch, TouchstoneModuleCastOutcome* outcomes);
+  void (*solve)(void* instance, const TouchstoneModuleCastBatch* batch,
+                TouchstoneModuleCastOutcome* outcomes);
 } TouchstoneModuleCasts;
 
 /* --- feature: the first time at which a moving vertex meets a triangle, or an edge an edge ---------------------------- */
@@ -445,8 +459,10 @@ typedef struct TouchstoneModuleFeatureOutcome {
 
 typedef struct TouchstoneModuleFeatureSettings {
   uint32_t struct_size, reserved;
-  double tolerance;       /* metres: features that come within separation + tolerance may be called a hit */
-  double separation;      /* metres: features this near to each other are in contact; 0 unless `separations` */
+  /* metres: features that come within separation + tolerance may be called a hit */
+  double tolerance;
+  /* metres: features this near to each other are in contact; 0 unless `separations` */
+  double separation;
   int32_t max_iterations; /* 0: its own */
   int32_t reserved_2;
 } TouchstoneModuleFeatureSettings;
@@ -458,8 +474,8 @@ typedef struct TouchstoneModuleFeaturePairs {
   const char* citation;
   void* (*create)(const TouchstoneModuleFeatureSettings* settings);
   void (*destroy)(void* instance);
-  void (*solve)(void* instance, uint32_t pair, const TouchstoneModuleFeatures* queries, size_t count,
-                TouchstoneModuleFeatureOutcome* outcomes);
+  void (*solve)(void* instance, uint32_t pair, const TouchstoneModuleFeatures* queries,
+                size_t count, TouchstoneModuleFeatureOutcome* outcomes);
 } TouchstoneModuleFeaturePairs;
 
 /* --- the module ----------------------------------------------------------------------------------------------------- */

@@ -126,9 +126,8 @@ class CellRun {
   }
   // A crash or another answer of ours in a sample is as wrong as one that was graded.
   void note(const record::RawRow& row) {
-    result_.ours_wrong |=
-        (row.origin == record::RowOrigin::ours || row.origin == record::RowOrigin::module) &&
-        (row.wrong() || row.status == record::RowStatus::crashed);
+    result_.ours_wrong |= record::is_answerable(row.origin) &&
+                          (row.wrong() || row.status == record::RowStatus::crashed);
   }
   // Notes what a run did that was stopped.
   void take_over() {

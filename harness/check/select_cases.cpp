@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/base/error.h"
+#include "harness/base/group_words.h"
 #include "harness/base/nearest_name.h"
 #include "harness/kinds/kind.h"
 #include "harness/kinds/selection.h"
@@ -60,11 +61,11 @@ std::map<const kinds::Kind*, std::string> shares_of(
     const std::string& list, const std::vector<const kinds::Kind*>& selectable) {
   std::map<const kinds::Kind*, std::string> shares;
   for (const std::string& name : kinds::split_names(list)) {
-    std::vector<std::string_view> known = {"all", "ours", "libraries", "oracle", "none"};
+    std::vector<std::string_view> known(base::group_words.begin(), base::group_words.end());
     const std::string file = modules::is_file(name) ? modules::file_of(name) : "";
     bool is_known = false;
     for (const kinds::Kind* kind : selectable) {
-      bool has_name = kinds::is_group(name);
+      bool has_name = base::is_group_word(name);
       for (const AlgorithmInfo* one : kind->algorithms()) {
         known.push_back(one->name);
         has_name =

@@ -32,7 +32,7 @@
 // clang-format off
 
 TOUCHSTONE_COMMAND(touchstone, run, "[CAMPAIGN.toml]", "Measure", "Run a campaign: every scene through every algorithm, compared and timed")
-TOUCHSTONE_FILES(run, "run pictures")
+TOUCHSTONE_FILES(run, "run run_modules pictures")
 TOUCHSTONE_COMMAND(touchstone_more, compare, "OLD NEW", "Measure", "Compare two results, or two builds: is B slower than A, or wrong where A is right?")
 TOUCHSTONE_COMMAND(touchstone_more, advise, "SCENE --max-error E", "Measure", "Find the cheapest setup for a scene within an error budget, or all that no other beats")
 TOUCHSTONE_COMMAND(launcher, bench, "[OPTIONS OF GOOGLE BENCHMARK]", "Measure", "Time single kernels, or count their instructions")

@@ -14,6 +14,7 @@
 
 #include "harness/base/data_folder.h"
 #include "harness/base/error.h"
+#include "harness/base/group_words.h"
 #include "harness/base/names.h"
 #include "harness/campaign/plan.h"
 #include "harness/campaign/runner.h"
@@ -22,11 +23,11 @@
 #include "harness/commands/pictures.h"
 #include "harness/commands/program.h"
 #include "harness/commands/run_file.h"
+#include "harness/commands/run_modules.h"
 #include "harness/commands/shared_options.h"
 #include "harness/grade/margins.h"
 #include "harness/kinds/selection.h"
 #include "harness/measure/noise.h"
-#include "harness/modules/file_word.h"
 #include "harness/modules/modules.h"
 #include "harness/record/machine.h"
 #include "harness/scene/generators/generators.h"
@@ -64,73 +65,6 @@ struct RunOptions {
   std::vector<std::string> peers;
   std::string with;  // files of modules, joined by commas
 };
-
-template <class Entry>
-std::vector<const Entry*> entries_of(const std::string& file) {
-  std::vector<const Entry*> found;
-  for (const Entry& entry : registry::entries<Entry>()) {
-    if (registry::module_of(entry.info) == file) found.push_back(&entry);
-  }
-  return found;
-}
-
-template <class Choice>
-std::vector<Precision> scalars_of(const std::vector<Choice>& choices) {
-  std::vector<Precision> scalars;
-  for (const Choice& choice : choices) {
-    const Precision scalar = choice.settings.scalar;
-    if (std::ranges::find(scalars, scalar) == scalars.end()) scalars.push_back(scalar);
-  }
-  return scalars;
-}
-
-// Adds what the module offers to the group: of each kind that the group asks, in the scalars that it asks. Returns how
-// much that is.
-std::size_t add_module(const std::string& file, campaign::CampaignGroup& group) {
-  std::size_t added = 0;
-  if (!group.broad.empty()) {
-    for (const BroadPhaseEntry* entry : entries_of<BroadPhaseEntry>(file)) {
-      ++added;
-      if (std::ranges::find(group.broad, entry) == group.broad.end()) group.broad.push_back(entry);
-    }
-  }
-  const auto add_choices = [&](std::vector<measure::NarrowChoice>& choices,
-                               const std::vector<measure::NarrowChoice>& more) {
-    for (const measure::NarrowChoice& choice : more) {
-      ++added;
-      if (std::ranges::find(choices, choice.label(), &measure::NarrowChoice::label) ==
-          choices.end())
-        choices.push_back(choice);
-    }
-  };
-  std::vector<measure::NarrowChoice> narrow;
-  for (const NarrowPhaseEntry* entry : entries_of<NarrowPhaseEntry>(file)) {
-    for (const Precision scalar : scalars_of(group.narrow)) {
-      if (offers(*entry, scalar))
-        narrow.push_back({entry, {.scalar = scalar}, false, measure::usual_batch});
-    }
-  }
-  add_choices(group.narrow, narrow);
-  add_choices(group.concave, measure::concave_choices(entries_of<ConcaveEntry>(file), {},
-                                                      scalars_of(group.concave)));
-  return added;
-}
-
-// Adds the modules to every group. Throws InputError for one of which no group asks anything.
-void add_modules(const std::string& words, campaign::Campaign& campaign) {
-  if (words.empty()) return;
-  for (const std::string& word : kinds::split_names(words)) {
-    std::size_t added = 0;
-    for (campaign::CampaignGroup& group : campaign.groups) {
-      added += add_module(modules::file_of(word), group);
-    }
-    if (added > 0) continue;
-    throw base::InputError(fmt::format(
-        "--with {}: it offers none of the kinds and scalars that the campaign measures; expected "
-        "one of them",
-        word));
-  }
-}
 
 // Adds the peers to every group that asks narrow phases, in each of their scalars. They are graded, and not timed.
 void add_peers(const std::string& names, campaign::Campaign& campaign) {
@@ -281,19 +215,7 @@ record::FolderStart start_of(const RunOptions& options) {
 // Returns the names that the user wrote out in a list of algorithms, without words such as `ours`.
 void add_named(const std::string& list, std::vector<std::string>& names) {
   for (std::string& name : kinds::split_names(list)) {
-    if (!kinds::is_group(name)) names.push_back(std::move(name));
-  }
-}
-
-// Adds the names of modules' algorithms that the campaign measures.
-void add_measured_modules(const campaign::Campaign& campaign, std::vector<std::string>& names) {
-  const auto add = [&](const AlgorithmInfo& info) {
-    if (info.origin == Origin::module && std::ranges::find(names, info.name) == names.end())
-      names.push_back(info.name);
-  };
-  for (const campaign::CampaignGroup& group : campaign.groups) {
-    for (const BroadPhaseEntry* entry : group.broad) add(entry->info);
-    for (const measure::NarrowChoice* choice : group.choices()) add(choice->info());
+    if (!base::is_group_word(name)) names.push_back(std::move(name));
   }
 }
 

@@ -102,14 +102,27 @@ void add_fan(Mesh& mesh, std::span<const std::uint32_t> polygon) {
   }
 }
 
-Mesh read_mesh(const std::filesystem::path& file) {
+namespace {
+
+using Reader = Mesh (*)(const std::string& file, std::string_view text);
+
+// Null for an unknown extension.
+Reader reader_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto reader = ending == ".obj"   ? read_obj
-                      : ending == ".off" ? read_off
-                      : ending == ".stl" ? read_stl
-                      : ending == ".ply" ? read_ply
-                                         : nullptr;
+  return ending == ".obj"   ? read_obj
+         : ending == ".off" ? read_off
+         : ending == ".stl" ? read_stl
+         : ending == ".ply" ? read_ply
+                            : nullptr;
+}
+
+}  // namespace
+
+bool is_mesh_file(const std::filesystem::path& file) { return reader_of(file) != nullptr; }
+
+Mesh read_mesh(const std::filesystem::path& file) {
+  const Reader reader = reader_of(file);
   if (reader == nullptr) {
     throw base::InputError(file.string(), 0,
                            "unknown mesh format; expected .obj, .off, .stl or .ply");

@@ -20,6 +20,8 @@ struct Mesh {
 // expected content. Errors are: an index out of range, a malformed number, NaN, infinity, a file
 // that ends early, and a mesh without vertices. Normals, colours, texture and material are ignored.
 Mesh read_mesh(const std::filesystem::path& file);
+// True for an extension that read_mesh takes.
+bool is_mesh_file(const std::filesystem::path& file);
 // The same, and a mesh without triangles is an error too.
 Mesh read_surface(const std::filesystem::path& file);
 

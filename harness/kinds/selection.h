@@ -13,6 +13,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
+#include "harness/base/group_words.h"
 #include "harness/base/nearest_name.h"
 #include "harness/modules/file_word.h"
 
@@ -70,7 +71,7 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
     const auto at =
         std::ranges::find_if(entries, [&](const Entry& entry) { return entry.info.name == name; });
     if (at == entries.end()) {
-      std::vector<std::string_view> known = {"all", "ours", "libraries", "oracle", "none"};
+      std::vector<std::string_view> known(base::group_words.begin(), base::group_words.end());
       for (const Entry& entry : entries) known.push_back(entry.info.name);
       throw base::InputError(base::unknown_name(what, name, known));
     }
@@ -81,12 +82,6 @@ std::vector<const Entry*> select(std::span<const Entry> entries,
     choose(*at);
   }
   return chosen;
-}
-
-// True for a word that selects algorithms of a whole group, or none.
-inline bool is_group(std::string_view name) {
-  constexpr std::array groups = {"all", "ours", "libraries", "peers", "oracle", "modules", "none"};
-  return std::ranges::find(groups, name) != groups.end();
 }
 
 // Returns the list for a message about a wrong request.

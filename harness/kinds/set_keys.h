@@ -54,7 +54,8 @@ inline std::vector<double> listed_numbers(files::TomlTable& table, std::string_v
 template <class Entry>
 std::vector<const Entry*> selected(files::TomlTable& table, std::span<const Entry> entries,
                                    std::string_view what, std::string_view key = "algorithms",
-                                   const std::vector<std::string>& fallback = {"ours", "peers", "modules"}) {
+                                   const std::vector<std::string>& fallback = {"ours", "peers",
+                                                                               "modules"}) {
   try {
     return kinds::select(entries, table.texts(key, fallback), what);
   } catch (const base::InputError& error) {

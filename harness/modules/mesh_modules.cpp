@@ -134,7 +134,7 @@ bool are_surfaces(const ConcaveBody& a, const ConcaveBody& b) {
 
 }  // namespace
 
-void add(Offer<TouchstoneModuleRays> offer, AlgorithmInfo info, Foretold&) {
+void add(Offer<TouchstoneModuleRays> offer, AlgorithmInfo info, TrialAnswers&) {
   const TouchstoneModuleRays& table = offer->table;
   expect_functions(*offer, {{"bind", table.bind != nullptr}, {"cast", table.cast != nullptr}});
   expect_bits(*offer, "tasks", table.tasks, 0b11);
@@ -149,7 +149,7 @@ void add(Offer<TouchstoneModuleRays> offer, AlgorithmInfo info, Foretold&) {
                 registry::Timed::yes, offer->object->file().string());
 }
 
-void add(Offer<TouchstoneModulePoints> offer, AlgorithmInfo info, Foretold&) {
+void add(Offer<TouchstoneModulePoints> offer, AlgorithmInfo info, TrialAnswers&) {
   const TouchstoneModulePoints& table = offer->table;
   expect_functions(*offer, {{"bind", table.bind != nullptr}, {"query", table.query != nullptr}});
   expect_bits(*offer, "tasks", table.tasks, 0b11);
@@ -161,7 +161,7 @@ void add(Offer<TouchstoneModulePoints> offer, AlgorithmInfo info, Foretold&) {
                 registry::Timed::yes, offer->object->file().string());
 }
 
-void add(Offer<TouchstoneModuleMeshes> offer, AlgorithmInfo info, Foretold&) {
+void add(Offer<TouchstoneModuleMeshes> offer, AlgorithmInfo info, TrialAnswers&) {
   const TouchstoneModuleMeshes& table = offer->table;
   expect_functions(*offer, {{"bind", table.bind != nullptr}, {"solve", table.solve != nullptr}});
   expect_bits(*offer, "tasks", table.tasks, 0b111);

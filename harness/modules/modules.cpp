@@ -18,6 +18,7 @@
 #include "algorithms/registry.h"
 #include "harness/base/clock.h"
 #include "harness/base/error.h"
+#include "harness/base/group_words.h"
 #include "harness/base/hash.h"
 #include "harness/base/input_file.h"
 #include "harness/modules/file_word.h"
@@ -55,13 +56,11 @@ std::string name_of(const char* text, const SharedObject& object) {
   const std::string what = fmt::format("the name of one of its {}", kind_words<Entry>.title);
   std::string name = text_of(text, object, what);
   static const std::regex form("[a-z0-9]+(-[a-z0-9]+)*");
-  constexpr std::array<std::string_view, 7> groups = {"all",    "ours",    "peers", "libraries",
-                                                      "oracle", "modules", "none"};
   if (!std::regex_match(name, form) || name.size() > 60) {
     object.fail(fmt::format("{}: found '{}'; expected at most 60 small letters, digits and '-'",
                             what, base::shortened(name)));
   }
-  if (std::ranges::find(groups, name) != groups.end()) {
+  if (base::is_group_word(name)) {
     object.fail(fmt::format("{}: found '{}', which means several algorithms; expected another",
                             what, name));
   }
@@ -81,7 +80,7 @@ std::string name_of(const char* text, const SharedObject& object) {
 
 template <class Entry, class Table>
 void add_all(const Table* const* tables, const std::shared_ptr<const SharedObject>& object,
-             Foretold& foretold) {
+             TrialAnswers& ahead) {
   for (std::size_t i = 0; tables != nullptr && tables[i] != nullptr; ++i) {
     if (i == most_tables) {
       object->fail(fmt::format("offers more than {} {}; expected NULL behind the last", most_tables,
@@ -97,7 +96,7 @@ void add_all(const Table* const* tables, const std::shared_ptr<const SharedObjec
     expect_functions(*offer,
                      {{"create", table.create != nullptr}, {"destroy", table.destroy != nullptr}});
     try {
-      add(offer, info, foretold);
+      add(offer, info, ahead);
     } catch (const std::length_error& error) {
       object->fail(
           fmt::format("{}; expected at most {} of a kind", error.what(), registry::most_added));
@@ -105,27 +104,27 @@ void add_all(const Table* const* tables, const std::shared_ptr<const SharedObjec
   }
 }
 
-void add_tables(const std::shared_ptr<const SharedObject>& object, Foretold& foretold) {
+void add_tables(const std::shared_ptr<const SharedObject>& object, TrialAnswers& ahead) {
   const TouchstoneModule& offer = object->offer();
-  add_all<BroadPhaseEntry>(offer.boxes, object, foretold);
-  add_all<NarrowPhaseEntry>(offer.pairs, object, foretold);
-  add_all<RayCastEntry>(offer.rays, object, foretold);
-  add_all<PointQueryEntry>(offer.points, object, foretold);
-  add_all<ConcaveEntry>(offer.meshes, object, foretold);
-  add_all<CastEntry>(offer.casts, object, foretold);
-  add_all<CcdEntry>(offer.features, object, foretold);
+  add_all<BroadPhaseEntry>(offer.boxes, object, ahead);
+  add_all<NarrowPhaseEntry>(offer.pairs, object, ahead);
+  add_all<RayCastEntry>(offer.rays, object, ahead);
+  add_all<PointQueryEntry>(offer.points, object, ahead);
+  add_all<ConcaveEntry>(offer.meshes, object, ahead);
+  add_all<CastEntry>(offer.casts, object, ahead);
+  add_all<CcdEntry>(offer.features, object, ahead);
 }
 
 enum class Trial : std::uint8_t { has_ended, has_threads, has_thrown, has_returned };
 
-// Loads it in a child process, which asks its tables what is foretold. A fault that can be told is told by the second
-// load, in this process. Throws base::InputError for a file that ends the process, hangs or starts threads.
+// Loads it in a child process, which asks its tables for the answers. The second load, in this process, reports a fault
+// that can be described. Throws base::InputError for a file that ends the process, hangs or starts threads.
 void try_to_load(const std::filesystem::path& file, std::span<std::uint8_t> answers) {
   process::SharedArray<Trial> trial(1);
   process::ChildProcess child({}, [&] {
     try {
-      Foretold foretold(answers, true);
-      add_tables(std::make_shared<const SharedObject>(file), foretold);
+      TrialAnswers ahead(answers, true);
+      add_tables(std::make_shared<const SharedObject>(file), ahead);
       trial[0] = Trial::has_threads;
       process::expect_one_thread();
       trial[0] = Trial::has_returned;
@@ -162,8 +161,8 @@ void load(const std::filesystem::path& named) {
   process::SharedArray<std::uint8_t> answers(2 * most_tables * most_supports);
   try_to_load(file, answers.span());
   const auto object = std::make_shared<const SharedObject>(file);
-  Foretold foretold(answers.span(), false);
-  add_tables(object, foretold);
+  TrialAnswers ahead(answers.span(), false);
+  add_tables(object, ahead);
   bool offers_some = false;
   registry::for_each_kind([&]<class Entry>() {
     offers_some =

@@ -88,7 +88,7 @@ class FeatureModule final : public Ccd {
 
 }  // namespace
 
-void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info, Foretold& foretold) {
+void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info, TrialAnswers& ahead) {
   const TouchstoneModuleCasts& table = offer->table;
   expect_functions(*offer, {{"bind", table.bind != nullptr}, {"solve", table.solve != nullptr}});
   expect_bits(*offer, "scalars", table.scalars, all_scalars);
@@ -102,13 +102,13 @@ void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info, Foretold& foret
   if (has_slot) entry.supports = cast_supports_functions[cast_slots().size()];
   registry::add(std::move(entry), registry::Timed::yes, offer->object->file().string());
   if (!has_slot) return;
-  cast_slots().push_back(supports_of(foretold, 2, [&](ShapeKind a, ShapeKind b, std::size_t turns) {
+  cast_slots().push_back(supports_of(ahead, 2, [&](ShapeKind a, ShapeKind b, std::size_t turns) {
     return table.supports(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
                           static_cast<int>(turns)) != 0;
   }));
 }
 
-void add(Offer<TouchstoneModuleFeaturePairs> offer, AlgorithmInfo info, Foretold&) {
+void add(Offer<TouchstoneModuleFeaturePairs> offer, AlgorithmInfo info, TrialAnswers&) {
   const TouchstoneModuleFeaturePairs& table = offer->table;
   expect_functions(*offer, {{"solve", table.solve != nullptr}});
   registry::add(CcdEntry{.info = std::move(info),

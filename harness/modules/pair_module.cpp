@@ -67,7 +67,7 @@ constexpr auto supports_functions = []<std::size_t... slot>(std::index_sequence<
 
 }  // namespace
 
-void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info, Foretold& foretold) {
+void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info, TrialAnswers& ahead) {
   const TouchstoneModulePairs& table = offer->table;
   expect_functions(*offer, {{"bind", table.bind != nullptr}, {"solve", table.solve != nullptr}});
   expect_bits(*offer, "tasks", table.tasks, 0b1111);
@@ -85,7 +85,7 @@ void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info, Foretold& foret
   registry::add(std::move(entry), registry::Timed::yes, offer->object->file().string());
   if (!has_slot) return;
   slots().push_back(
-      supports_of(foretold, all_tasks.size(), [&](ShapeKind a, ShapeKind b, std::size_t task) {
+      supports_of(ahead, all_tasks.size(), [&](ShapeKind a, ShapeKind b, std::size_t task) {
         return table.supports(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
                               bit_of(all_tasks[task])) != 0;
       }));

@@ -12,12 +12,12 @@
 
 namespace touchstone::modules {
 
-// What a module's own functions say before it is asked for an instance, such as which kinds a table takes. The process in
-// which the file is tried asks them, and the program reads the same answers in the same order: so a function that
-// crashes, hangs or exits does not end the program.
-class Foretold {
+// Yes-or-no answers of a module's functions that are needed before an instance is made, such as which kinds a table
+// takes. The child process in which the file is tried asks for them. The program reads them in the same order, so a
+// function that crashes, hangs or exits does not end it.
+class TrialAnswers {
  public:
-  Foretold(std::span<std::uint8_t> answers, bool asks) : answers_(answers), asks_(asks) {}
+  TrialAnswers(std::span<std::uint8_t> answers, bool asks) : answers_(answers), asks_(asks) {}
   template <class Function>
   bool answer(const Function& function) {
     if (next_ == answers_.size()) return false;

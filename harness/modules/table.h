@@ -153,14 +153,13 @@ constexpr std::size_t supports_place(ShapeKind a, ShapeKind b, std::size_t rest)
 }
 // What `supports`, a function of two kinds and of `rest`, says of all with kind_a <= kind_b.
 template <class Function>
-Supports supports_of(Foretold& foretold, std::size_t rests, const Function& function) {
+Supports supports_of(TrialAnswers& ahead, std::size_t rests, const Function& function) {
   Supports supports{};
   for (const ShapeKind a : all_shape_kinds) {
     for (const ShapeKind b : all_shape_kinds) {
       if (a > b) continue;
       for (std::size_t rest = 0; rest < rests; ++rest) {
-        supports[supports_place(a, b, rest)] =
-            foretold.answer([&] { return function(a, b, rest); });
+        supports[supports_place(a, b, rest)] = ahead.answer([&] { return function(a, b, rest); });
       }
     }
   }
@@ -168,12 +167,12 @@ Supports supports_of(Foretold& foretold, std::size_t rests, const Function& func
 }
 
 // Each adds the entry of a table to the registry. Throws base::InputError where the table is wrong.
-void add(Offer<TouchstoneModuleBoxes> offer, AlgorithmInfo info, Foretold& foretold);
-void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info, Foretold& foretold);
-void add(Offer<TouchstoneModuleRays> offer, AlgorithmInfo info, Foretold& foretold);
-void add(Offer<TouchstoneModulePoints> offer, AlgorithmInfo info, Foretold& foretold);
-void add(Offer<TouchstoneModuleMeshes> offer, AlgorithmInfo info, Foretold& foretold);
-void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info, Foretold& foretold);
-void add(Offer<TouchstoneModuleFeaturePairs> offer, AlgorithmInfo info, Foretold& foretold);
+void add(Offer<TouchstoneModuleBoxes> offer, AlgorithmInfo info, TrialAnswers& ahead);
+void add(Offer<TouchstoneModulePairs> offer, AlgorithmInfo info, TrialAnswers& ahead);
+void add(Offer<TouchstoneModuleRays> offer, AlgorithmInfo info, TrialAnswers& ahead);
+void add(Offer<TouchstoneModulePoints> offer, AlgorithmInfo info, TrialAnswers& ahead);
+void add(Offer<TouchstoneModuleMeshes> offer, AlgorithmInfo info, TrialAnswers& ahead);
+void add(Offer<TouchstoneModuleCasts> offer, AlgorithmInfo info, TrialAnswers& ahead);
+void add(Offer<TouchstoneModuleFeaturePairs> offer, AlgorithmInfo info, TrialAnswers& ahead);
 
 }  // namespace touchstone::modules

@@ -16,6 +16,7 @@
 
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
+#include "harness/base/group_words.h"
 #include "harness/base/input_file.h"
 #include "harness/files/output_file.h"
 #include "harness/peer/adapters.h"
@@ -178,9 +179,7 @@ std::string name_of(const files::JsonNode& hello) {
 }
 
 void expect_new(const files::JsonNode& hello, const std::string& name) {
-  constexpr std::array<std::string_view, 7> words = {"all",    "ours",    "peers", "libraries",
-                                                     "oracle", "modules", "none"};
-  if (std::ranges::find(words, name) != words.end()) {
+  if (base::is_group_word(name)) {
     hello.fail(
         fmt::format("found the name '{}', which means several algorithms; expected another", name));
   }

@@ -54,7 +54,9 @@ void columns(Row& row, Visit visit) {
   visit("block", row.block, "Number of the block in the campaign.");
   visit("row", with_sign(row.row), "Place in raw.csv, from 0, of the row that shows it.");
   visit("algorithm", row.algorithm, "The algorithm's label, as in the tables.");
-  visit("ours", row.ours, "1 for an algorithm of ours, or of a module: it ends the run with status 1 unless it is known.");
+  visit("ours", row.ours,
+        "1 for an algorithm of ours, or of a module: it ends the run with status 1 unless it is "
+        "known.");
   visit("known", row.known, "1 where the departure is a known defect, or approximate by design.");
   visit("where", row.where, "Scene, bodies, frame and pair kind.");
   visit("what", row.what, "The departure in words.");

@@ -49,6 +49,10 @@ constexpr RowStatus row_status(Status status) { return static_cast<RowStatus>(st
 enum class RowOrigin : std::uint8_t { ours, peer, oracle, module, limit };
 std::string_view to_string(RowOrigin origin);
 constexpr RowOrigin row_origin(Origin origin) { return static_cast<RowOrigin>(origin); }
+// As of an Origin (algorithm_info.h).
+constexpr bool is_answerable(std::optional<RowOrigin> origin) {
+  return origin == RowOrigin::ours || origin == RowOrigin::module;
+}
 
 // Counts of -1, empty optionals and texts, and NaN are empty fields.
 struct RawRow {

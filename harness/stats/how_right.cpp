@@ -63,8 +63,7 @@ std::vector<Fault> faults_of(const Tables& tables, std::span<const record::Depar
     return fault;
   };
   for (const AgreementRow& row : tables.agreement) {
-    Fault& fault = fault_of(row.label, row.origin == record::RowOrigin::ours ||
-                                           row.origin == record::RowOrigin::module);
+    Fault& fault = fault_of(row.label, record::is_answerable(row.origin));
     fault.queries += row.queries;
     fault.wrong += row.wrong;
     fault.unanswered += row.failed + row.unanswered;

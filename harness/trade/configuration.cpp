@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "harness/base/error.h"
+#include "harness/base/group_words.h"
 #include "harness/kinds/selection.h"
 
 namespace touchstone::trade {
@@ -95,8 +96,7 @@ NarrowChain parse_chain(std::string_view text) {
     text.remove_prefix(plus + 1);
   }
   for (const std::string& name : names) {
-    if (name == "all" || name == "ours" || name == "peers" || name == "oracle" ||
-        name == "modules" || name == "none") {
+    if (base::is_group_word(name)) {
       throw base::InputError(fmt::format("'{}' in a chain of narrow phases; expected names", name));
     }
   }

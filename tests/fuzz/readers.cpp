@@ -46,7 +46,7 @@ constexpr std::string_view crane = R"(<robot name="crane">
 constexpr std::string_view tetrahedron =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-// Of readers that are reached by a scene alone, this one imports the file.
+// Some files are read for a scene alone. The scene beside them names them.
 void read_scene_beside(const fs::path& file) {
   scene::load_scene(file.parent_path() / "scene.toml");
 }

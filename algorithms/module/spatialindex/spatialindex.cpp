@@ -80,8 +80,9 @@ class Tree {
     if (!stream.hasNext()) return;  // the library wants a box at least
     storage_.reset(SpatialIndex::StorageManager::createNewMemoryStorageManager());
     SpatialIndex::id_type id = 0;
-    tree_.reset(SpatialIndex::RTree::createAndBulkLoadNewRTree(SpatialIndex::RTree::BLM_STR, stream, *storage_,
-                                                               0.9, 32, 32, 3, SpatialIndex::RTree::RV_RSTAR, id));
+    tree_.reset(SpatialIndex::RTree::createAndBulkLoadNewRTree(SpatialIndex::RTree::BLM_STR, stream,
+                                                               *storage_, 0.9, 32, 32, 3,
+                                                               SpatialIndex::RTree::RV_RSTAR, id));
   }
 
   void find_pairs(TouchstoneModuleSink& sink) const {
@@ -105,7 +106,8 @@ TouchstoneModuleBoxes table() {
   TouchstoneModuleBoxes made{};
   made.struct_size = sizeof made;
   made.name = "spatialindex-rtree";
-  made.citation = "libspatialindex: RTree::createAndBulkLoadNewRTree (STR, R*) and intersectsWithQuery.";
+  made.citation =
+      "libspatialindex: RTree::createAndBulkLoadNewRTree (STR, R*) and intersectsWithQuery.";
   made.create = [](const TouchstoneModuleBoxSettings*) -> void* { return new Tree; };
   made.destroy = [](void* instance) { delete static_cast<Tree*>(instance); };
   made.build = [](void* instance, const TouchstoneModuleBox* boxes, std::size_t count) {

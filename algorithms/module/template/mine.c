@@ -24,8 +24,8 @@ static void build(void* instance, const TouchstoneModuleBox* boxes, size_t count
 
 /* Closed boxes that touch overlap. An empty box has infinite bounds the wrong way round, so it overlaps nothing. */
 static int overlap(const TouchstoneModuleBox* a, const TouchstoneModuleBox* b) {
-  return a->min[0] <= b->max[0] && b->min[0] <= a->max[0] && a->min[1] <= b->max[1] && b->min[1] <= a->max[1] &&
-         a->min[2] <= b->max[2] && b->min[2] <= a->max[2];
+  return a->min[0] <= b->max[0] && b->min[0] <= a->max[0] && a->min[1] <= b->max[1] &&
+         b->min[1] <= a->max[1] && a->min[2] <= b->max[2] && b->min[2] <= a->max[2];
 }
 
 static uint32_t find_pairs(void* instance, TouchstoneModuleSink* sink) {
@@ -33,19 +33,21 @@ static uint32_t find_pairs(void* instance, TouchstoneModuleSink* sink) {
   size_t a, b;
   for (a = 0; a < mine->count; ++a) {
     for (b = a + 1; b < mine->count; ++b) {
-      if (overlap(&mine->boxes[a], &mine->boxes[b])) touchstone_module_push(sink, (uint32_t)a, (uint32_t)b);
+      if (overlap(&mine->boxes[a], &mine->boxes[b]))
+        touchstone_module_push(sink, (uint32_t)a, (uint32_t)b);
     }
   }
   return TOUCHSTONE_MODULE_OK;
 }
 
-static const TouchstoneModuleBoxes all_with_all = {.struct_size = sizeof(TouchstoneModuleBoxes),
-                                                   .name = "mine-boxes",
-                                                   .citation = "The template of modules: all pairs.",
-                                                   .create = create_boxes,
-                                                   .destroy = free,
-                                                   .build = build,
-                                                   .find_pairs = find_pairs};
+static const TouchstoneModuleBoxes all_with_all = {
+    .struct_size = sizeof(TouchstoneModuleBoxes),
+    .name = "mine-boxes",
+    .citation = "The template of modules: all pairs.",
+    .create = create_boxes,
+    .destroy = free,
+    .build = build,
+    .find_pairs = find_pairs};
 
 /* --- pairs --- */
 
@@ -69,7 +71,8 @@ static void bind(void* instance, const TouchstoneModuleShape* const* shapes, siz
   mine->shapes = shapes;
 }
 
-static void solve(void* instance, const TouchstoneModulePairBatch* batch, TouchstoneModuleOutcome* outcomes) {
+static void solve(void* instance, const TouchstoneModulePairBatch* batch,
+                  TouchstoneModuleOutcome* outcomes) {
   const Spheres* const mine = instance;
   size_t pair;
   int i;
@@ -95,8 +98,8 @@ static void solve(void* instance, const TouchstoneModulePairBatch* batch, Touchs
 
 static const TouchstoneModulePairs two_spheres = {
     .struct_size = sizeof(TouchstoneModulePairs),
-    .tasks = TOUCHSTONE_MODULE_INTERSECT | TOUCHSTONE_MODULE_DISTANCE | TOUCHSTONE_MODULE_PENETRATION |
-             TOUCHSTONE_MODULE_SIGNED,
+    .tasks = TOUCHSTONE_MODULE_INTERSECT | TOUCHSTONE_MODULE_DISTANCE |
+             TOUCHSTONE_MODULE_PENETRATION | TOUCHSTONE_MODULE_SIGNED,
     .scalars = TOUCHSTONE_MODULE_DOUBLE,
     .name = "mine-spheres",
     .citation = "The template of modules: the distance of the centres less the radii.",
@@ -110,8 +113,10 @@ static const TouchstoneModulePairs two_spheres = {
 
 static const TouchstoneModuleBoxes* const boxes[] = {&all_with_all, NULL};
 static const TouchstoneModulePairs* const pairs[] = {&two_spheres, NULL};
-static const TouchstoneModule module = {
-    .struct_size = sizeof(TouchstoneModule), .abi = TOUCHSTONE_MODULE_ABI, .boxes = boxes, .pairs = pairs};
+static const TouchstoneModule module = {.struct_size = sizeof(TouchstoneModule),
+                                        .abi = TOUCHSTONE_MODULE_ABI,
+                                        .boxes = boxes,
+                                        .pairs = pairs};
 
 const TouchstoneModule* touchstone_module(uint32_t abi) {
   return abi == TOUCHSTONE_MODULE_ABI ? &module : NULL;

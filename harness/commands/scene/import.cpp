@@ -20,6 +20,7 @@
 #include "harness/commands/commands.h"
 #include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
+#include "harness/geometry/mesh.h"
 #include "harness/scene/robot/planning_scene.h"
 #include "harness/scene/robot/xml_element.h"
 #include "harness/scene/scene.h"
@@ -46,11 +47,6 @@ std::string ending_of(const fs::path& file) {
   return ending;
 }
 
-bool is_mesh(const fs::path& file) {
-  static const std::set<std::string> endings = {".obj", ".off", ".stl", ".ply"};
-  return endings.contains(ending_of(file));
-}
-
 std::string opening_of(const fs::path& file) {
   constexpr std::size_t most = 4096;
   return files::read_text(file).substr(0, most);
@@ -74,7 +70,7 @@ std::string key_of(const fs::path& file) {
         header.find(",frame,") != std::string::npos && header.find(",body,") != std::string::npos;
     return is_log ? "poses" : "configurations";
   }
-  if (is_mesh(file)) return "mesh";
+  if (geometry::is_mesh_file(file)) return "mesh";
   throw base::InputError(file.string(), 0,
                          "unknown kind of file; expected .toml, .json, .urdf, .srdf, .aabbs, "
                          ".yaml, .csv, or a mesh (.obj, .off, .stl, .ply)");
@@ -89,7 +85,7 @@ std::string kind_of(const fs::path& file) {
                                                                {".aabbs", "recording of boxes"}};
   const auto known = by_ending.find(ending_of(file));
   if (known != by_ending.end()) return known->second;
-  if (is_mesh(file)) return "mesh";
+  if (geometry::is_mesh_file(file)) return "mesh";
   const bool is_csv = ending_of(file) == ".csv";
   const std::string opening = opening_of(file);
   const bool has_header = opening.find_first_of("0123456789+-.") != 0;

@@ -30,9 +30,9 @@ extern "C" {
 /* What functions return. */
 enum {
   TOUCHSTONE_OK = 0,
-  TOUCHSTONE_INVALID = 1,  /* an argument is wrong */
+  TOUCHSTONE_INVALID = 1, /* an argument is wrong */
   TOUCHSTONE_NO_MEMORY = 2,
-  TOUCHSTONE_FAILED = 3    /* something else */
+  TOUCHSTONE_FAILED = 3 /* something else */
 };
 
 /* Answers. Of casts: separated is a miss, and touching a hit. */
@@ -85,7 +85,10 @@ typedef struct touchstone_result {
   double on_a[3];      /* the closest points; of overlapping bodies on_a - on_b = depth * normal */
   double on_b[3];
 } touchstone_result;
-#define TOUCHSTONE_RESULT_INIT {sizeof(touchstone_result), 3, 4, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}
+#define TOUCHSTONE_RESULT_INIT                                                  \
+  {                                                                             \
+    sizeof(touchstone_result), 3, 4, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, { 0, 0, 0 } \
+  }
 
 typedef struct touchstone_cast_result {
   size_t struct_size; /* set by the caller */
@@ -96,16 +99,20 @@ typedef struct touchstone_cast_result {
   double normal[3];    /* unit vector from a to b at that time */
   double point[3];     /* where they touch at that time */
 } touchstone_cast_result;
-#define TOUCHSTONE_CAST_RESULT_INIT {sizeof(touchstone_cast_result), 3, 4, 0, 0, 0, {0, 0, 0}, {0, 0, 0}}
+#define TOUCHSTONE_CAST_RESULT_INIT                                       \
+  {                                                                       \
+    sizeof(touchstone_cast_result), 3, 4, 0, 0, 0, {0, 0, 0}, { 0, 0, 0 } \
+  }
 
 typedef struct touchstone_solver_options {
-  size_t struct_size;         /* set by the caller */
-  const char* algorithm;      /* NULL: what Touchstone's tables of times recommend for each two kinds */
+  size_t struct_size;    /* set by the caller */
+  const char* algorithm; /* NULL: what Touchstone's tables of times recommend for each two kinds */
   const char* cast_algorithm; /* the same for casts */
   double tolerance;           /* part of the size of a pair; below 0: the algorithm's own */
   double margin;              /* metres: bodies further apart have no number; below 0: none */
 } touchstone_solver_options;
-#define TOUCHSTONE_SOLVER_OPTIONS_INIT {sizeof(touchstone_solver_options), NULL, NULL, -1, -1}
+#define TOUCHSTONE_SOLVER_OPTIONS_INIT \
+  { sizeof(touchstone_solver_options), NULL, NULL, -1, -1 }
 
 typedef struct touchstone_world_options {
   size_t struct_size;      /* set by the caller */
@@ -113,7 +120,8 @@ typedef struct touchstone_world_options {
   int32_t threads;         /* at least 1 */
   int32_t reserved;        /* 0 */
 } touchstone_world_options;
-#define TOUCHSTONE_WORLD_OPTIONS_INIT {sizeof(touchstone_world_options), NULL, 1, 0}
+#define TOUCHSTONE_WORLD_OPTIONS_INIT \
+  { sizeof(touchstone_world_options), NULL, 1, 0 }
 
 /* A body of a world. A handle of a removed body is never that of another. */
 typedef struct touchstone_handle {
@@ -129,7 +137,10 @@ typedef struct touchstone_ray_hit {
   double t;         /* in lengths of the direction; 0 if the ray begins in the body */
   double normal[3]; /* unit vector towards the origin's side; NaN if t is 0 */
 } touchstone_ray_hit;
-#define TOUCHSTONE_RAY_HIT_INIT {sizeof(touchstone_ray_hit), 0, 4, {0, 0}, 0, {0, 0, 0}}
+#define TOUCHSTONE_RAY_HIT_INIT                              \
+  {                                                          \
+    sizeof(touchstone_ray_hit), 0, 4, {0, 0}, 0, { 0, 0, 0 } \
+  }
 
 typedef struct touchstone_shape touchstone_shape;
 typedef struct touchstone_solver touchstone_solver;
@@ -141,48 +152,60 @@ TOUCHSTONE_API const char* touchstone_version(void);
 TOUCHSTONE_API const char* touchstone_last_error(void);
 
 /* Poses. `rows` is the rotation matrix row by row. The quaternion is normalised. */
-TOUCHSTONE_API int touchstone_pose_from_rows(const double rows[9], const double translation[3], touchstone_pose* pose);
+TOUCHSTONE_API int touchstone_pose_from_rows(const double rows[9], const double translation[3],
+                                             touchstone_pose* pose);
 TOUCHSTONE_API int touchstone_pose_from_quaternion(double w, double x, double y, double z,
-                                                   const double translation[3], touchstone_pose* pose);
+                                                   const double translation[3],
+                                                   touchstone_pose* pose);
 
 /* Shapes. Capsule, cylinder and cone lie along z, from -half_length to half_length; a capsule has a half ball beyond
  * both ends, and a cone its tip at half_length. A hull is that of `count` >= 1 points, three numbers each. A
  * half-space has the points p with normal . p <= offset. Sizes are finite and at least 0. */
 TOUCHSTONE_API int touchstone_sphere(double radius, touchstone_shape** shape);
 TOUCHSTONE_API int touchstone_capsule(double radius, double half_length, touchstone_shape** shape);
-TOUCHSTONE_API int touchstone_box(double x, double y, double z, touchstone_shape** shape); /* half extents */
+TOUCHSTONE_API int touchstone_box(double x, double y, double z,
+                                  touchstone_shape** shape); /* half extents */
 TOUCHSTONE_API int touchstone_cylinder(double radius, double half_length, touchstone_shape** shape);
 TOUCHSTONE_API int touchstone_cone(double radius, double half_length, touchstone_shape** shape);
-TOUCHSTONE_API int touchstone_ellipsoid(double x, double y, double z, touchstone_shape** shape); /* radii */
+TOUCHSTONE_API int touchstone_ellipsoid(double x, double y, double z,
+                                        touchstone_shape** shape); /* radii */
 TOUCHSTONE_API int touchstone_hull(const double* points, size_t count, touchstone_shape** shape);
-TOUCHSTONE_API int touchstone_halfspace(const double normal[3], double offset, touchstone_shape** shape);
+TOUCHSTONE_API int touchstone_halfspace(const double normal[3], double offset,
+                                        touchstone_shape** shape);
 TOUCHSTONE_API void touchstone_shape_destroy(touchstone_shape* shape); /* may be NULL */
 
 /* Solvers ask algorithms about pairs. A shape is prepared at the first call that meets it, or ahead by `prepare`,
  * which replaces those that it was given before. `options` may be NULL. */
-TOUCHSTONE_API int touchstone_solver_create(const touchstone_solver_options* options, touchstone_solver** solver);
+TOUCHSTONE_API int touchstone_solver_create(const touchstone_solver_options* options,
+                                            touchstone_solver** solver);
 TOUCHSTONE_API void touchstone_solver_destroy(touchstone_solver* solver); /* may be NULL */
-TOUCHSTONE_API int touchstone_solver_prepare(touchstone_solver* solver, const touchstone_shape* const* shapes,
-                                             size_t count);
-TOUCHSTONE_API int touchstone_solver_ask(touchstone_solver* solver, int question, const touchstone_shape* shape_a,
-                                         const touchstone_pose* pose_a, const touchstone_shape* shape_b,
+TOUCHSTONE_API int touchstone_solver_prepare(touchstone_solver* solver,
+                                             const touchstone_shape* const* shapes, size_t count);
+TOUCHSTONE_API int touchstone_solver_ask(touchstone_solver* solver, int question,
+                                         const touchstone_shape* shape_a,
+                                         const touchstone_pose* pose_a,
+                                         const touchstone_shape* shape_b,
                                          const touchstone_pose* pose_b, touchstone_result* result);
-TOUCHSTONE_API int touchstone_solver_cast(touchstone_solver* solver, const touchstone_shape* shape_a,
-                                          const touchstone_pose* pose_a, const touchstone_motion* motion_a,
-                                          const touchstone_shape* shape_b, const touchstone_pose* pose_b,
-                                          const touchstone_motion* motion_b, touchstone_cast_result* result);
+TOUCHSTONE_API int touchstone_solver_cast(
+    touchstone_solver* solver, const touchstone_shape* shape_a, const touchstone_pose* pose_a,
+    const touchstone_motion* motion_a, const touchstone_shape* shape_b,
+    const touchstone_pose* pose_b, const touchstone_motion* motion_b,
+    touchstone_cast_result* result);
 
 /* Worlds: bodies, and which of their boxes overlap. Pairs are those of the last update; rays meet the bodies where
  * they are now. A body with a shape has the least box around it; one without is its box (minimum, then maximum), and
  * no ray meets it. A half-space has no box, and is refused. `options` may be NULL. */
-TOUCHSTONE_API int touchstone_world_create(const touchstone_world_options* options, touchstone_world** world);
+TOUCHSTONE_API int touchstone_world_create(const touchstone_world_options* options,
+                                           touchstone_world** world);
 TOUCHSTONE_API void touchstone_world_destroy(touchstone_world* world); /* may be NULL */
 TOUCHSTONE_API int touchstone_world_insert(touchstone_world* world, const touchstone_shape* shape,
                                            const touchstone_pose* pose, touchstone_handle* handle);
 TOUCHSTONE_API int touchstone_world_insert_box(touchstone_world* world, const double box[6],
                                                touchstone_handle* handle);
-TOUCHSTONE_API int touchstone_world_move(touchstone_world* world, touchstone_handle body, const touchstone_pose* pose);
-TOUCHSTONE_API int touchstone_world_move_box(touchstone_world* world, touchstone_handle body, const double box[6]);
+TOUCHSTONE_API int touchstone_world_move(touchstone_world* world, touchstone_handle body,
+                                         const touchstone_pose* pose);
+TOUCHSTONE_API int touchstone_world_move_box(touchstone_world* world, touchstone_handle body,
+                                             const double box[6]);
 TOUCHSTONE_API int touchstone_world_remove(touchstone_world* world, touchstone_handle body);
 TOUCHSTONE_API int touchstone_world_update(touchstone_world* world);
 /* Calls `visit` once for each pair. A `visit` that returns another number than 0 ends it. It must not use the world. */
@@ -193,12 +216,14 @@ TOUCHSTONE_API int touchstone_world_for_each_pair(touchstone_world* world,
 /* The same for the pairs that began since the last call of this function (began is 1), and then for those that ended
  * (began is 0). */
 TOUCHSTONE_API int touchstone_world_for_each_change(touchstone_world* world,
-                                                    int (*visit)(void* context, int began, touchstone_handle a,
+                                                    int (*visit)(void* context, int began,
+                                                                 touchstone_handle a,
                                                                  touchstone_handle b),
                                                     void* context);
 /* The first body that origin + t * direction meets, 0 <= t <= t_max, which may be infinite. */
-TOUCHSTONE_API int touchstone_world_ray(touchstone_world* world, const double origin[3], const double direction[3],
-                                        double t_max, touchstone_ray_hit* hit);
+TOUCHSTONE_API int touchstone_world_ray(touchstone_world* world, const double origin[3],
+                                        const double direction[3], double t_max,
+                                        touchstone_ray_hit* hit);
 
 #ifdef __cplusplus
 }
