@@ -18,6 +18,7 @@
 #include "algorithms/cast.h"
 #include "algorithms/ccd.h"
 #include "algorithms/concave_phase.h"
+#include "algorithms/configuration_query.h"
 #include "algorithms/contact_manifold.h"
 #include "algorithms/mid_phase.h"
 #include "algorithms/narrow_phase.h"
@@ -65,6 +66,9 @@ inline constexpr KindWords kind_words<CastEntry> = {
 template <>
 inline constexpr KindWords kind_words<CcdEntry> = {
     "feature", "continuous collision of features", {"ccd", "features"}};
+template <>
+inline constexpr KindWords kind_words<ConfigurationEntry> = {
+    "configuration", "configurations of robots", {"configurations"}};
 
 namespace registry {
 
@@ -72,9 +76,9 @@ namespace registry {
 template <class Visit>
 void for_each_kind(Visit&& visit) {
   const auto each = [&]<class... Entry>() { (visit.template operator()<Entry>(), ...); };
-  each.template
-  operator()<BroadPhaseEntry, NarrowPhaseEntry, ManifoldEntry, RayCastEntry, SceneRayCastEntry,
-             PointQueryEntry, MidPhaseEntry, ConcaveEntry, CastEntry, CcdEntry>();
+  each.template operator()<BroadPhaseEntry, NarrowPhaseEntry, ManifoldEntry, RayCastEntry,
+                           SceneRayCastEntry, PointQueryEntry, MidPhaseEntry, ConcaveEntry,
+                           CastEntry, CcdEntry, ConfigurationEntry>();
 }
 
 // Returns the words of the kind with this word, or with this other word; nothing if there is none.

@@ -215,7 +215,7 @@ void add_check(Arguments command) {
       .is_read()
       .once_each();
   command.text("--kind", options->selection.kinds,
-               "Only these kinds: pair, box, mesh, ray, point, cast, feature, scene-ray");
+               "Only these kinds: pair, box, mesh, ray, point, cast, feature, scene-ray, configuration");
   command.text("--regimes", options->selection.regimes,
                "Regimes and families of cases: names joined by commas (default: all)");
   command.text("--group,--groups", options->selection.groups, "Groups of these, joined by commas");

@@ -70,6 +70,9 @@ Listed listed(const ConcaveEntry& entry) { return {joined(entry.tasks), joined(e
 Listed listed(const CastEntry& entry) {
   return {entry.rotation ? "linear;rigid" : "linear", joined(entry.scalars)};
 }
+Listed listed(const ConfigurationEntry& entry) {
+  return {joined(entry.tasks), one(Precision::float64)};
+}
 Listed listed(const CcdEntry&) { return {"vertex-face;edge-edge", one(Precision::float64)}; }
 
 // The versions of adapters, which are asked where --peer names them.

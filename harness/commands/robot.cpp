@@ -1,4 +1,4 @@
-// touchstone robot: which links of a robot touch, and what its SRDF file hides.
+// touchstone robot: which links of a robot touch, what its SRDF file hides, and who finds it out fastest.
 #include <fmt/core.h>
 #include <fmt/format.h>
 
@@ -12,6 +12,8 @@
 #include "harness/base/error.h"
 #include "harness/base/input_file.h"
 #include "harness/base/table.h"
+#include "harness/cells/cell_run.h"
+#include "harness/cells/read_cells.h"
 #include "harness/commands/arguments.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/shared_options.h"
@@ -22,6 +24,7 @@
 #include "harness/scene/robot/planning_scene.h"
 #include "harness/scene/robot/robot.h"
 #include "harness/scene/scene.h"
+#include "harness/stats/cell_results.h"
 #include "harness/trade/advice/budget.h"
 
 namespace touchstone::commands {
@@ -160,18 +163,55 @@ std::string proposal(const scene::Robot& robot, const report::LinkContacts& foun
   return text + "</robot>\n";
 }
 
+// Of the configurations those that are timed are the first.
+constexpr std::string_view timed_text =
+    R"(# Written by `touchstone robot`: who says fastest whether configurations are free, and who is wrong.
+[[group]]
+kind = "configuration"
+scenes = ["scene.toml"]
+tasks = ["free"]
+queries = 1000
+rounds = 6
+)";
+
+// Times configuration queries, as `run` does with the file. Returns the exit status.
+int print_times(const fs::path& file) {
+  const fs::path folder = file.parent_path() / "times";
+  const cells::CellRequest request = cells::read_cells(file);
+  const cells::CellRunResult result =
+      cells::run_cells(request, folder, record::FolderStart::overwrite, [](const std::string&) {});
+  if (result.interrupted) return end_interrupted();
+  for (const stats::CellTimes& set : stats::read_cell_times(folder)) {
+    fmt::print("\nWho says fastest whether a configuration is free ({}):\n", set.name.first);
+    base::Table table({"algorithm", "", "configurations a second", "wrong", "given up"});
+    std::vector<stats::CellTimeRow> rows = set.rows;
+    std::ranges::stable_sort(rows, [](const stats::CellTimeRow& a, const stats::CellTimeRow& b) {
+      return std::pair(!(a.seconds > 0), a.seconds) < std::pair(!(b.seconds > 0), b.seconds);
+    });
+    for (const stats::CellTimeRow& row : rows) {
+      const stats::GradeRow& grade = row.grade;
+      table.add({grade.algorithm, grade.origin == "peer" ? "library" : grade.origin,
+                 row.seconds > 0 ? fmt::format("{:.3g}", 1 / row.seconds) : grade.status,
+                 fmt::format("{} of {}", grade.silent(), grade.graded),
+                 std::to_string(grade.gave_up)});
+    }
+    fmt::print("{}", table.text(base::page_width()));
+  }
+  return result.ours_wrong ? exit_measured_wrong : exit_done;
+}
+
 int look_at(const RobotOptions& options) {
   const fs::path out =
       results_folder(options.out, fs::path(options.robot).stem().string(), "robot-");
   const fs::path scene_file = out / "scene.toml", pairs_file = out / "pairs.csv",
-                 srdf_file = out / "proposed.srdf";
+                 srdf_file = out / "proposed.srdf", timed_file = out / "configurations.toml";
   for (const std::string& file : {options.robot, options.scene, options.srdf, options.path}) {
     if (!file.empty()) base::check_kind(file, "a file of the robot");
   }
   const std::string text = scene_text(options);
   const scene::Scene scene = scene::scene_of_text(text, scene_file);
   std::vector<files::NamedFile> outputs;
-  for (const fs::path& file : {scene_file, pairs_file, srdf_file}) {
+  for (const fs::path& file : {scene_file, pairs_file, srdf_file, timed_file}) {
     outputs.push_back({"--out", file});
     std::error_code error;
     if (!options.overwrite && fs::exists(file, error)) {
@@ -229,11 +269,15 @@ int look_at(const RobotOptions& options) {
   files::write_text(scene_file, text);
   write_csv(pairs_file, found);
   files::write_text(srdf_file, proposal(robot, found));
+  files::write_text(timed_file, std::string(timed_text));
+  const int status = print_times(timed_file);
   fmt::print(
       "\nAll pairs: {}\nAn SRDF file that leaves out what always or never touched: {}\n"
-      "Which algorithm is fastest on it, and who is wrong: touchstone run --scene {} --frames {}\n",
-      pairs_file.string(), srdf_file.string(), scene_file.string(), std::min<std::size_t>(64, all));
-  return exit_done;
+      "These times again, with intervals: touchstone run {}\n"
+      "Broad and narrow phases apart: touchstone run --scene {} --frames {}\n",
+      pairs_file.string(), srdf_file.string(), timed_file.string(), scene_file.string(),
+      std::min<std::size_t>(64, all));
+  return status;
 }
 
 }  // namespace
@@ -269,7 +313,7 @@ void add_robot(Arguments command) {
       .among({uses.begin(), uses.end()})
       .show_default();
   command.text("--out", options->out,
-               "Folder for pairs.csv, proposed.srdf and scene.toml (default: "
+               "Folder for pairs.csv, proposed.srdf, scene.toml and times (default: "
                "results/local/robot-NAME)");
   command.footer(
       "Convex bodies are asked by `certified`, meshes by `fused`. scene.toml is for `run --scene`, "

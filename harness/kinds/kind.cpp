@@ -15,22 +15,23 @@
 namespace touchstone::kinds {
 
 std::span<const Kind* const> kinds() {
-  static const std::array<const Kind*, 6> all = {&mesh_kind(), &ray_kind(),     &point_kind(),
-                                                 &cast_kind(), &feature_kind(), &scene_ray_kind()};
+  static const std::array<const Kind*, 7> all = {
+      &mesh_kind(),    &ray_kind(),       &point_kind(),        &cast_kind(),
+      &feature_kind(), &scene_ray_kind(), &configuration_kind()};
   return all;
 }
 
 std::span<const Kind* const> checked_kinds() {
-  static const std::array<const Kind*, 8> all = {&pair_kind(),      &mesh_kind(), &ray_kind(),
-                                                 &point_kind(),     &cast_kind(), &feature_kind(),
-                                                 &scene_ray_kind(), &box_kind()};
+  static const std::array<const Kind*, 9> all = {
+      &pair_kind(),    &mesh_kind(),      &ray_kind(),           &point_kind(), &cast_kind(),
+      &feature_kind(), &scene_ray_kind(), &configuration_kind(), &box_kind()};
   return all;
 }
 
 std::span<const Kind* const> asked_kinds() {
-  static const std::array<const Kind*, 9> all = {&pair_kind(), &box_kind(),       &mesh_kind(),
-                                                 &ray_kind(),  &scene_ray_kind(), &point_kind(),
-                                                 &cast_kind(), &feature_kind(),   &manifold_kind()};
+  static const std::array<const Kind*, 10> all = {
+      &pair_kind(),  &box_kind(),  &mesh_kind(),    &ray_kind(),      &scene_ray_kind(),
+      &point_kind(), &cast_kind(), &feature_kind(), &manifold_kind(), &configuration_kind()};
   return all;
 }
 

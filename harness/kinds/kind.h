@@ -109,6 +109,7 @@ const Kind& point_kind();
 const Kind& cast_kind();
 const Kind& feature_kind();
 const Kind& scene_ray_kind();
+const Kind& configuration_kind();
 const Kind& pair_kind();
 const Kind& box_kind();
 const Kind& manifold_kind();

@@ -83,6 +83,8 @@ const Kind& kind_of_columns(const QuestionInput& input, const std::string& heade
   if (has("origin_x") || has("direction_x")) return ray_kind_at(input);
   if (has("min_x") || has("max_x")) return box_kind();
   if (has("x") && has("y") && has("z")) return point_kind();
+  const std::string target = input.text("--in");
+  if (target.ends_with(".urdf") || is_scene(target)) return configuration_kind();
   const bool is_numbers = header.find_first_not_of("0123456789.,+-eE ") == std::string::npos;
   if (is_numbers && !header.empty() && columns.size() >= 3 && columns.size() <= 7) {
     return feature_kind();
@@ -91,7 +93,8 @@ const Kind& kind_of_columns(const QuestionInput& input, const std::string& heade
       input.file, 1,
       fmt::format("found '{}'; expected cases in JSON, or a header of boxes (frame,id,min_x,...), "
                   "rays (origin_x,...) "
-                  "or points (x,y,z), or four vertices a query; or --kind with one of {}",
+                  "or points (x,y,z), four vertices a query, or joint values with --in ROBOT.urdf; "
+                  "or --kind with one of {}",
                   base::shortened(header), kind_names()));
 }
 
@@ -104,9 +107,12 @@ const Kind& told_kind(const QuestionInput& input, const std::string& word) {
   if (input.has("--settled")) return manifold_kind();
   if (input.has("--bodies")) return asks_concave_phases(input) ? mesh_kind() : pair_kind();
   const std::string file = input.file.string();
+  if (file.ends_with(".urdf")) return configuration_kind();
   if (file.ends_with(".toml")) {
     throw base::InputError(
-        file, 0, "is a scene; expected --bodies with two of its bodies, or a file of questions");
+        file, 0,
+        "is a scene; expected --bodies with two of its bodies, --kind configuration if it has a "
+        "robot, or a file of questions");
   }
   if (file.ends_with(".aabbs") || scene::are_mesh_frames(input.file)) return box_kind();
   if (std::filesystem::is_directory(input.file)) return feature_kind();

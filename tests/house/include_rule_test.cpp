@@ -63,14 +63,26 @@ bool in(const std::string& path, const std::string& folder) {
 }
 
 bool is_contract(const std::string& path) {
-  static const std::set<std::string> contracts = {
-      "broad_phase",        "narrow_phase", "contact_manifold",
-      "ray_cast",           "point_query",  "mid_phase",
-      "concave_phase",      "cast",         "ccd",
-      "encoding",           "limit",        "algorithm_info",
-      "broad_phase_work",   "pair_query",   "signed_by_two",
-      "within_margin",      "moving_pairs", "scene_ray_cast",
-      "mid_phase_of_bodies"};
+  static const std::set<std::string> contracts = {"broad_phase",
+                                                  "narrow_phase",
+                                                  "contact_manifold",
+                                                  "ray_cast",
+                                                  "point_query",
+                                                  "mid_phase",
+                                                  "concave_phase",
+                                                  "cast",
+                                                  "ccd",
+                                                  "encoding",
+                                                  "limit",
+                                                  "algorithm_info",
+                                                  "broad_phase_work",
+                                                  "pair_query",
+                                                  "signed_by_two",
+                                                  "within_margin",
+                                                  "moving_pairs",
+                                                  "scene_ray_cast",
+                                                  "mid_phase_of_bodies",
+                                                  "configuration_query"};
   return path.starts_with("algorithms/") && path.ends_with(".h") &&
          contracts.contains(path.substr(11, path.size() - 13));
 }
@@ -113,8 +125,8 @@ const std::vector<std::string>& harness_rooms() {
 
 // The folders whose entries are algorithms: each a file, or a folder of files that are its own.
 const std::set<std::string> algorithm_rooms = {
-    "broad_phase", "narrow_phase", "manifold", "ray_cast", "point_query",
-    "mid_phase",   "concave",      "cast",     "ccd",      "scene_ray_cast"};
+    "broad_phase", "narrow_phase", "manifold", "ray_cast",       "point_query",  "mid_phase",
+    "concave",     "cast",         "ccd",      "scene_ray_cast", "configuration"};
 bool is_in_algorithms(const std::string& path) {
   return std::ranges::any_of(algorithm_rooms,
                              [&](const auto& room) { return in(path, "algorithms/" + room); });

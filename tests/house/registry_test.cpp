@@ -124,9 +124,9 @@ TEST(Registry, AWordNamesOneKind) {
       EXPECT_EQ(named->word, kind.word);
     }
   });
-  EXPECT_EQ(kinds,
-            (std::vector<std::string_view>{"box", "pair", "manifold", "ray", "scene-ray", "point",
-                                           "mid-phase", "mesh", "cast", "feature"}));
+  EXPECT_EQ(kinds, (std::vector<std::string_view>{"box", "pair", "manifold", "ray", "scene-ray",
+                                                  "point", "mid-phase", "mesh", "cast", "feature",
+                                                  "configuration"}));
   EXPECT_FALSE(registry::kind_named(""));
   EXPECT_FALSE(registry::kind_named("sphere"));
 }

@@ -36,7 +36,7 @@ std::optional<CcdQuery> moved(const CcdQuery& query, const Vec3d& shift,
   return other;
 }
 
-oracle::Solid hull_of(std::vector<Vec3d> vertices) {
+oracle::Solid solid_hull(std::vector<Vec3d> vertices) {
   Hull hull;
   hull.vertices = std::move(vertices);
   Shape shape;
@@ -60,7 +60,8 @@ MeasuredAt measured_at(const CcdQuery& query, int first_count, double time,
                                                                           time * end);
     reach = std::max({reach, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
   }
-  const oracle::Solid a = hull_of(std::move(features[0])), b = hull_of(std::move(features[1]));
+  const oracle::Solid a = solid_hull(std::move(features[0])),
+                      b = solid_hull(std::move(features[1]));
   return {oracle.measure({a, Pose{}}, {b, Pose{}}), reach};
 }
 

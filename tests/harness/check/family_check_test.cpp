@@ -33,8 +33,9 @@ using ::testing::Not;
 // A family of each kind, in which both outcomes are common.
 std::vector<const kinds::Family*> some_families() {
   std::vector<const kinds::Family*> some;
-  for (const char* name : {"triangles-generic", "rays-random", "points-off-1e-3", "casts-on-a-grid",
-                           "vertex-face-small-grid-1", "scene-rays-short"}) {
+  for (const char* name :
+       {"triangles-generic", "rays-random", "points-off-1e-3", "casts-on-a-grid",
+        "vertex-face-small-grid-1", "scene-rays-short", "configurations-balls"}) {
     for (const kinds::Family* family : kinds::case_families()) {
       if (family->name == name) some.push_back(family);
     }

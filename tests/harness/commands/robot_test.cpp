@@ -77,6 +77,7 @@ TEST_F(RobotCommand, CountsContactsAndWhatSrdfHides) {
   EXPECT_THAT(ran.text, ContainsRegex("some configurations:\nlinks +touch in *\n-+\nhigh, tip "
                                       "+[1-9][^\n]*\nhigh, plate +[1-9]"));
   EXPECT_THAT(ran.text, HasSubstr("Each of them touches in less than 0.75 %"));
+  EXPECT_THAT(ran.text, ContainsRegex("fixed-pairs +ours +[0-9.e+]+ +0 of 400"));
   EXPECT_THAT(folder_.read("out/pairs.csv"), ContainsRegex("low,high,yes,400,0,0\n"));
   EXPECT_THAT(folder_.read("out/pairs.csv"), ContainsRegex("high,tip,no,400,[1-9]"));
   const std::string proposal = folder_.read("out/proposed.srdf");

@@ -108,6 +108,22 @@ struct PlantedCcd final : Ccd {
   }
 };
 
+template <Habit habit>
+struct PlantedConfigurations final : ConfigurationQuery {
+  IndexPair pair;
+
+  void bind(const ConfigurationModel& model) override { pair = model.pairs.front(); }
+  void solve(ConfigurationTask, const Configurations&,
+             std::span<ConfigurationAnswer> answers) override {
+    for (ConfigurationAnswer& answer : answers) {
+      answer = {};
+      answer.status = status_of_habit<habit>();
+      answer.answer = habit == Habit::yes ? Answer::overlapping : Answer::separated;
+      answer.pair = pair;
+    }
+  }
+};
+
 // One of each kind, in the order of kinds::kinds(), in double; of points the side is asked.
 template <Habit habit>
 struct PlantedKinds {
@@ -134,14 +150,22 @@ struct PlantedKinds {
   SceneRayCastEntry scene_rays{.info = concave.info, .tasks = {RayTask::any}, .make = [] {
                                  return std::make_unique<PlantedSceneRays<habit>>();
                                }};
+  ConfigurationEntry configurations{
+      .info = concave.info, .tasks = {ConfigurationTask::free}, .make = [](const auto&) {
+        return std::make_unique<PlantedConfigurations<habit>>();
+      }};
 
   std::vector<kinds::Contestant> contestants() const {
     const auto of = [](const kinds::Kind& kind, const auto& entry, std::uint8_t task) {
       return kinds::contestant_of(kind, entry, true, Precision::float64, task);
     };
-    return {of(kinds::mesh_kind(), concave, 0), of(kinds::ray_kind(), rays, 1),
-            of(kinds::point_kind(), points, 1), of(kinds::cast_kind(), cast, 0),
-            of(kinds::feature_kind(), ccd, 0),  of(kinds::scene_ray_kind(), scene_rays, 1)};
+    return {of(kinds::mesh_kind(), concave, 0),
+            of(kinds::ray_kind(), rays, 1),
+            of(kinds::point_kind(), points, 1),
+            of(kinds::cast_kind(), cast, 0),
+            of(kinds::feature_kind(), ccd, 0),
+            of(kinds::scene_ray_kind(), scene_rays, 1),
+            of(kinds::configuration_kind(), configurations, 0)};
   }
 };
 

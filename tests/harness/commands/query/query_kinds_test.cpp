@@ -200,6 +200,36 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// A ball that slides along x, towards another one at 0.5 m.
+const std::string small_robot = R"(<robot name="rail">
+<link name="rail"><collision><origin xyz="0.5 0 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+<link name="bar"/>
+<link name="ball"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+<joint name="turn" type="continuous"><parent link="rail"/><child link="bar"/></joint>
+<joint name="lift" type="prismatic"><parent link="bar"/><child link="bar2"/><limit lower="-1" upper="1"/></joint>
+<link name="bar2"><collision><origin xyz="0 9 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+<joint name="slide" type="prismatic"><parent link="bar2"/><child link="ball"/><axis xyz="1 0 0"/><limit lower="-1" upper="1"/></joint>
+</robot>)";
+
+TEST_F(QueryKinds, ConfigurationsOfARobotAreFreeOrNot) {
+  const std::string robot = write("rail.urdf", small_robot);
+  const std::string rows = write("joints.csv", "slide\n0\n0.25\n0.5\n");
+  const std::string asked = rows + " --in " + robot + " --with exact,ours";
+  const std::string free = shown(asked);
+  EXPECT_THAT(free, ContainsRegex("configuration 0\n  exact +free"));
+  EXPECT_THAT(free, ContainsRegex("configuration 2\n  exact +contact +rail, ball"));
+  EXPECT_THAT(free, HasSubstr("pose-lanes"));
+  EXPECT_THAT(free, Not(HasSubstr("[exact:")));
+  const std::string distance = shown(asked + " --task distance");
+  EXPECT_THAT(distance, ContainsRegex("configuration 1\n  exact +free +0.0[45]"));
+  EXPECT_THAT(shown(asked + " --task motion"), HasSubstr("first in step 2"));
+  expect_refusal("query " + rows + " --kind configuration", "--in is missing", folder);
+  expect_refusal("query " + rows + " --kind configuration --in " + rows,
+                 "expected a robot (.urdf) or a scene (.toml)", folder);
+  expect_refusal("query " + write("wrong.csv", "push\n0\n") + " --in " + robot, "wrong.csv:1",
+                 folder);
+}
+
 // The cases of the section "A pair in JSON" of datasets/README.md can be copied.
 TEST_F(QueryKinds, TheDocumentedCasesAreAnswered) {
   std::string text = text_of("datasets/README.md");
@@ -241,7 +271,9 @@ TEST_F(QueryKinds, TheColumnsOfAnswersAreDocumented) {
       {"Answers about points", write("points.csv", "x,y,z\n1,1,-2\n") + " --in " + mesh},
       {"Answers about moving features",
        write("features.csv", "0,0,1\n-1,-1,0\n1,-1,0\n0,1,0\n0,0,-1\n-1,-1,0\n1,-1,0\n0,1,0\n") +
-           " --features vertex-face"}};
+           " --features vertex-face"},
+      {"Answers about configurations",
+       write("joints.csv", "slide\n0\n1\n") + " --in " + write("rail.urdf", small_robot)}};
   for (const auto& [heading, arguments] : asked) {
     const std::size_t from = page.find("\n## " + heading + "\n");
     ASSERT_NE(from, std::string::npos) << heading;

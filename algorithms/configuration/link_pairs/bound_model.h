@@ -1,0 +1,98 @@
+// Part of link-pairs: a bound model, where its parts are in a configuration, and what is known of a pair of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "algorithms/configuration_query.h"
+
+namespace touchstone {
+
+// A ball and a box around a part, in the frame of its link, or in the world.
+struct PartBounds {
+  Vec3d centre = Vec3d::Zero();  // of both
+  double radius = 0;  // metres; infinite for a half-space, negative for a part without points
+  Mat3d axes = Mat3d::Identity();
+  Vec3d half = Vec3d::Zero();            // of the box, along its axes
+  bool is_ball = false, is_box = false;  // the part is no less than that
+};
+
+class BoundModel {
+ public:
+  // What bounds say of a pair: certain, whatever was rounded, but for `open`.
+  enum class Bound : std::uint8_t { apart, touch, open };
+  struct Verdict {
+    Answer answer;
+    Status status;
+  };
+
+  // `model` stays alive and unchanged.
+  void bind(const ConfigurationModel& model, const ConfigurationSettings& settings);
+  // The pairs of the model of which both parts have points.
+  std::span<const IndexPair> pairs() const { return pairs_; }
+  const PartBounds& bounds(std::uint32_t part) const { return bounds_[part]; }
+  std::uint32_t link_of(std::uint32_t part) const { return model_->parts[part].link; }
+  std::size_t parts() const { return bounds_.size(); }
+
+  // Begins a configuration; the poses live until the next one.
+  void place(std::span<const Pose> links);
+  // By how much bounds are wider than they state, in this configuration (metres).
+  double slack() const { return slack_; }
+  const Vec3d& centre(std::uint32_t part) {
+    if (placed_centres_[part] != now_) place_centre(part);
+    return centres_[part];
+  }
+
+  bool balls_are_apart(std::uint32_t a, std::uint32_t b) {
+    const double reach = bounds_[a].radius + bounds_[b].radius + slack_;
+    return (centre(a) - centre(b)).squaredNorm() > reach * reach;
+  }
+  // Balls first, then boxes.
+  Bound bound(const IndexPair& pair);
+  // A lower bound of their distance, and whether it is the distance up to rounding (metres).
+  struct Gap {
+    double least;
+    bool is_exact;
+  };
+  Gap gap(const IndexPair& pair);
+
+  // Asks the narrow phase, or the concave phase.
+  Verdict decide(const IndexPair& pair);
+  // Their distance too; 0 where they share a point.
+  Outcome measure(const IndexPair& pair);
+
+ private:
+  void place_centre(std::uint32_t part);
+  const Mat3d& axes(std::uint32_t part);
+  const Pose& pose(std::uint32_t part);
+  // How far a point is from the box around a part (metres), squared.
+  double squared_gap_of_box(const Vec3d& point, std::uint32_t part);
+  bool boxes_are_apart(std::uint32_t a, std::uint32_t b);
+  const Outcome& ask(Task task, const IndexPair& pair);
+
+  const ConfigurationModel* model_ = nullptr;
+  std::vector<IndexPair> pairs_;
+  std::vector<PartBounds> bounds_;
+  std::vector<char> is_convex_;
+  std::vector<Shape> shapes_;  // one a part; without a meaning where it is not convex
+  std::vector<ConcaveBody> bodies_;
+  std::vector<std::uint32_t> own_number_;  // 0, 1, 2...
+  std::unique_ptr<NarrowPhase> narrow_;
+  std::unique_ptr<ConcavePhase> concave_;  // null if all parts are convex
+  double reach_ = 0;  // no part reaches further from its link, or the origin (metres)
+
+  // In this configuration, those whose number is `now_`; the world's have the greatest number.
+  std::span<const Pose> links_;
+  double slack_ = 0;
+  std::uint64_t now_ = 0;
+  std::vector<std::uint64_t> placed_centres_, placed_axes_, placed_poses_;
+  std::vector<Vec3d> centres_;
+  std::vector<Mat3d> axes_;
+  std::vector<Pose> poses_;
+  Outcome outcome_;
+  std::vector<IndexPair> touching_;
+};
+
+}  // namespace touchstone

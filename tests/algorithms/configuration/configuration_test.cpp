@@ -1,0 +1,234 @@
+// Tests configuration queries of every origin on small robots: against the oracle's answer for every pair.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "harness/families/meshes.h"
+#include "tests/algorithms/one_in.h"
+#include "tests/algorithms/random.h"
+
+namespace touchstone {
+namespace {
+
+using reference::Random;
+
+std::unique_ptr<ConcavePhase> concave(const char* name) {
+  ConcaveSettings settings;
+  settings.mid_phase = registry::find<MidPhaseEntry>("wide-bvh")->make;
+  settings.narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); };
+  return registry::find<ConcaveEntry>(name)->make(settings);
+}
+
+std::unique_ptr<ConfigurationQuery> query_of(const ConfigurationEntry& entry) {
+  const bool is_exact = entry.info.origin == Origin::oracle;
+  return entry.make(
+      {.narrow_phase = [] { return registry::find<NarrowPhaseEntry>("certified")->make({}); },
+       .concave_phase = [is_exact] { return concave(is_exact ? "exact" : "fused"); }});
+}
+
+// All but the oracle that offer the task.
+std::vector<const ConfigurationEntry*> asked(ConfigurationTask task) {
+  std::vector<const ConfigurationEntry*> all;
+  for (const ConfigurationEntry& entry : registry::entries<ConfigurationEntry>()) {
+    if (!is_built(entry.info) || entry.info.origin == Origin::oracle) continue;
+    if (std::ranges::count(entry.tasks, task) > 0) all.push_back(&entry);
+  }
+  return all;
+}
+
+const ConfigurationEntry& exact() { return *registry::find<ConfigurationEntry>("exact"); }
+
+ConcaveBody ball(double radius) {
+  Shape shape;
+  shape.radius = radius;
+  return {nullptr, {{shape, {}, 0}}};
+}
+
+ConcaveBody box(const Vec3d& half) {
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.half_extents = half;
+  return {nullptr, {{shape, {}, 0}}};
+}
+
+Pose at(double x, double y, double z) { return {Mat3d::Identity(), Vec3d(x, y, z)}; }
+
+// A ball that is a link, and another one in the world at the origin; both have the radius 1.
+ConfigurationModel two_balls() {
+  ConfigurationModel model;
+  model.links = 1;
+  model.parts = {{ball(1), 0, {}}, {ball(1), ModelPart::world, {}}};
+  model.pairs = {{0, 1}};
+  return model;
+}
+
+ConfigurationAnswer ask(const ConfigurationEntry& entry, const ConfigurationModel& model,
+                        ConfigurationTask task, const std::vector<Pose>& poses) {
+  const auto query = query_of(entry);
+  query->bind(model);
+  ConfigurationAnswer answer;
+  const auto steps = static_cast<std::uint32_t>(poses.size() / model.links);
+  query->solve(task, {poses, model.links, steps}, {&answer, 1});
+  return answer;
+}
+
+TEST(Configurations, ATouchIsAContact) {
+  const ConfigurationModel model = two_balls();
+  for (const ConfigurationEntry& entry : registry::entries<ConfigurationEntry>()) {
+    if (!is_built(entry.info)) continue;
+    const auto answer_at = [&](double x) {
+      return ask(entry, model, ConfigurationTask::free, {at(x, 0, 0)}).answer;
+    };
+    EXPECT_EQ(answer_at(1.5), Answer::overlapping) << entry.info.name;
+    EXPECT_EQ(answer_at(2.5), Answer::separated) << entry.info.name;
+    if (entry.approximate) continue;
+    EXPECT_EQ(answer_at(2), Answer::overlapping) << entry.info.name;
+    EXPECT_EQ(answer_at(std::nextafter(2, 3)), Answer::separated) << entry.info.name;
+  }
+}
+
+TEST(Configurations, OnlyPairsThatAreAskedCount) {
+  ConfigurationModel model = two_balls();
+  model.pairs.clear();
+  for (const ConfigurationEntry* entry : asked(ConfigurationTask::free)) {
+    EXPECT_EQ(ask(*entry, model, ConfigurationTask::free, {at(0, 0, 0)}).answer, Answer::separated)
+        << entry->info.name;
+  }
+  for (const ConfigurationEntry* entry : asked(ConfigurationTask::distance)) {
+    const auto far = ask(*entry, model, ConfigurationTask::distance, {at(0, 0, 0)});
+    EXPECT_EQ(far.answer, Answer::separated) << entry->info.name;
+    EXPECT_EQ(far.distance, std::numeric_limits<double>::infinity()) << entry->info.name;
+  }
+}
+
+TEST(Configurations, TheFirstStepInContactIsNamed) {
+  const ConfigurationModel model = two_balls();
+  const std::vector<Pose> through = {at(4, 0, 0), at(3, 0, 0), at(1, 0, 0), at(0, 0, 0)};
+  const std::vector<Pose> past = {at(4, 3, 0), at(0, 3, 0), at(-4, 3, 0)};
+  for (const ConfigurationEntry* entry : asked(ConfigurationTask::motion)) {
+    const auto hit = ask(*entry, model, ConfigurationTask::motion, through);
+    EXPECT_EQ(hit.answer, Answer::overlapping) << entry->info.name;
+    EXPECT_EQ(hit.step, 2U) << entry->info.name;
+    EXPECT_EQ(hit.pair, (IndexPair{0, 1})) << entry->info.name;
+    const auto miss = ask(*entry, model, ConfigurationTask::motion, past);
+    EXPECT_EQ(miss.answer, Answer::separated) << entry->info.name;
+    EXPECT_EQ(miss.step, ConfigurationAnswer::none) << entry->info.name;
+  }
+}
+
+TEST(Configurations, PartsWithoutPointsAndHalfSpacesAreTaken) {
+  ConfigurationModel model = two_balls();
+  Shape ground;
+  ground.kind = ShapeKind::halfspace;
+  model.parts[1].body = {nullptr, {{ground, {}, 0}}};
+  model.parts.push_back({ConcaveBody{}, 0, {}});
+  model.parts.push_back({ball(1), ModelPart::world, at(0, 0, 50)});
+  model.pairs = {{0, 1}, {0, 3}, {1, 2}, {2, 3}};
+  for (const ConfigurationEntry* entry : asked(ConfigurationTask::distance)) {
+    if (entry->info.origin != Origin::ours) continue;
+    const auto high = ask(*entry, model, ConfigurationTask::free, {at(0, 0, 1.25)});
+    EXPECT_EQ(high.answer, Answer::separated) << entry->info.name;
+    const auto low = ask(*entry, model, ConfigurationTask::free, {at(0, 0, 0.75)});
+    EXPECT_EQ(low.answer, Answer::overlapping) << entry->info.name;
+    const auto far = ask(*entry, model, ConfigurationTask::distance, {at(0, 0, 3)});
+    EXPECT_NEAR(far.distance, 2, 1e-12) << entry->info.name;
+  }
+}
+
+// Links of balls, boxes and meshes in a row, each turned against the one before, among boxes.
+ConfigurationModel some_robot(Random& random, bool meshes) {
+  ConfigurationModel model;
+  model.links = 5;
+  for (std::uint32_t link = 0; link < model.links; ++link) {
+    for (int i = 0; i < 3; ++i) {
+      ModelPart part = {ball(random.uniform(0.1, 0.3)), link, at(0, 0, 0.25 * i)};
+      if (i == 1) {
+        part.body = box({0.1, random.uniform(0.1, 0.2), 0.2});
+        part.pose.rotation = random.rotation();
+      }
+      if (i == 2 && meshes) {
+        part.body = {std::make_shared<const TriangleMesh>(
+                         families::moved(families::torus(6, 4, 0.75, 0.25), 0.25, {0, 0, 0})),
+                     {}};
+      }
+      model.parts.push_back(part);
+    }
+  }
+  for (int i = 0; i < 4; ++i) {
+    model.parts.push_back(
+        {box({0.4, 0.2, 0.3}), ModelPart::world, {random.rotation(), 2 * random.direction()}});
+  }
+  for (std::uint32_t a = 0; a < model.parts.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < model.parts.size(); ++b) {
+      const std::uint32_t first = model.parts[a].link, second = model.parts[b].link;
+      if (first != ModelPart::world && second >= first + 2) model.pairs.push_back({a, b});
+    }
+  }
+  return model;
+}
+
+void add_configuration(Random& random, std::uint32_t links, std::vector<Pose>& poses) {
+  Pose before;
+  for (std::uint32_t link = 0; link < links; ++link) {
+    const Mat3d turn =
+        Eigen::AngleAxisd(random.uniform(-1, 1), random.direction()).toRotationMatrix();
+    before = placed_within(before, {turn, Vec3d(0, 0, 0.6)});
+    poses.push_back(before);
+  }
+}
+
+TEST(Configurations, AgreeWithEveryPairByItself) {
+  Random random(1);
+  for (const bool meshes : {false, true}) {
+    int contacts = 0, frees = 0;
+    for (int robots = 0; robots < drawn(meshes ? 4 : 10, 1); ++robots) {
+      const ConfigurationModel model = some_robot(random, meshes);
+      constexpr std::size_t count = 24;
+      std::vector<Pose> poses;
+      for (std::size_t i = 0; i < count; ++i) add_configuration(random, model.links, poses);
+      for (const ConfigurationTask task :
+           {ConfigurationTask::free, ConfigurationTask::distance, ConfigurationTask::motion}) {
+        const std::uint32_t steps = task == ConfigurationTask::motion ? 3 : 1;
+        const Configurations all = {poses, model.links, steps};
+        const auto answers_of = [&](const ConfigurationEntry& entry) {
+          std::vector<ConfigurationAnswer> answers(all.answers());
+          const auto query = query_of(entry);
+          query->bind(two_balls());  // a model that was bound before leaves nothing behind
+          query->bind(model);
+          query->solve(task, all, answers);
+          return answers;
+        };
+        const auto right = answers_of(exact());
+        for (const ConfigurationEntry* entry : asked(task)) {
+          const auto answers = answers_of(*entry);
+          for (std::size_t i = 0; i < answers.size(); ++i) {
+            SCOPED_TRACE(entry->info.name + " " + std::string(to_string(task)));
+            EXPECT_EQ(answers[i].answer, right[i].answer);
+            EXPECT_EQ(answers[i].step, right[i].step);
+            if (task == ConfigurationTask::distance) {
+              EXPECT_NEAR(answers[i].distance, right[i].distance,
+                          entry->approximate ? 1e-4 : 1e-11);
+            }
+            if (entry->approximate || answers[i].answer != Answer::overlapping) continue;
+            EXPECT_TRUE(std::ranges::binary_search(model.pairs, answers[i].pair));
+          }
+        }
+        if (task != ConfigurationTask::free) continue;
+        for (const ConfigurationAnswer& answer : right) {
+          ++(answer.answer == Answer::overlapping ? contacts : frees);
+        }
+      }
+    }
+    EXPECT_GT(contacts, 5);
+    EXPECT_GT(frees, 5);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone
