@@ -12,15 +12,27 @@ namespace {
 
 }  // namespace
 
-std::uint32_t scan_rows(std::span<const LaneRow> rows, std::span<const LaneBall> balls,
-                        std::span<const LaneBox> boxes, std::uint32_t alive,
-                        std::vector<LaneHit>& hits) {
+void place_balls(const LanePose& link, std::span<const std::array<float, 3>> centres,
+                 std::span<LaneBall> balls) {
   switch (isa()) {
-    case Isa::avx512: return avx512::scan(rows, balls, boxes, alive, hits);
-    case Isa::avx2: return avx2::scan(rows, balls, boxes, alive, hits);
+    case Isa::avx512: return avx512::place(link, centres, balls);
+    case Isa::avx2: return avx2::place(link, centres, balls);
     case Isa::baseline: break;
   }
-  return baseline::scan(rows, balls, boxes, alive, hits);
+  baseline::place(link, centres, balls);
+}
+
+std::uint32_t scan_rows(std::span<const LaneRow> rows, std::uint32_t first, std::uint32_t last,
+                        std::span<const LaneBall> balls, std::span<const LaneBox> boxes,
+                        float slack, std::uint32_t lanes, std::vector<LaneHit>& hits,
+                        std::vector<LaneHit>& sure) {
+  switch (isa()) {
+    case Isa::avx512:
+      return avx512::scan(rows, first, last, balls, boxes, slack, lanes, hits, sure);
+    case Isa::avx2: return avx2::scan(rows, first, last, balls, boxes, slack, lanes, hits, sure);
+    case Isa::baseline: break;
+  }
+  return baseline::scan(rows, first, last, balls, boxes, slack, lanes, hits, sure);
 }
 
 }  // namespace touchstone

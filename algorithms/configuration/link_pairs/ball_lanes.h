@@ -12,9 +12,17 @@ namespace touchstone {
 // The number of configurations that are asked together.
 inline constexpr std::size_t pose_lanes = 16;
 
-// Where a ball is: a lane a configuration (metres).
+// A lane a configuration.
+using LaneNumbers = std::array<float, pose_lanes>;
+
+// Where a ball is (metres).
 struct LaneBall {
-  alignas(64) std::array<float, pose_lanes> x, y, z;
+  alignas(64) LaneNumbers x, y, z;
+};
+
+// Where a link is: the rows of its rotation, each with the translation behind it.
+struct LanePose {
+  alignas(64) std::array<LaneNumbers, 12> rows;
 };
 
 // A box in the world.
@@ -26,24 +34,31 @@ struct LaneBox {
 
 // A ball, and what it may meet.
 struct LaneRow {
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-
   std::uint32_t ball, other;  // the other is a ball, or a box
+  // The rows to be asked where this one may meet; none if it is a pair of parts.
+  std::uint32_t first = 0, last = 0;
+  // The distance of the centre within which they meet (metres).
+  float reach;
   bool is_box;
-  // Within the first distance they may meet, and within the second one they surely do (metres); the second is negative
-  // if that is not known.
-  float may, sure;
+  // Whether they meet within it for certain, but for rounding.
+  bool decides;
 };
 
 struct LaneHit {
   std::uint32_t row;
-  std::uint32_t may, sure;  // a bit a lane
+  std::uint32_t lanes;  // a bit a lane
 };
 
-// Appends a hit for each row that may meet in some lane of `alive`. Lanes in which a row surely meets are not asked for
-// further rows. Returns the lanes that are left.
-std::uint32_t scan_rows(std::span<const LaneRow> rows, std::span<const LaneBall> balls,
-                        std::span<const LaneBox> boxes, std::uint32_t alive,
-                        std::vector<LaneHit>& hits);
+// Where points of a link are: `centres` in its frame.
+void place_balls(const LanePose& link, std::span<const std::array<float, 3>> centres,
+                 std::span<LaneBall> balls);
+
+// Appends a hit for each row from `first` to before `last` that may meet in some of the lanes, which it does within
+// `slack` (metres) of its reach. Lanes in which a row surely meets are put into `sure`, and not asked for further rows.
+// Returns the lanes that are left.
+std::uint32_t scan_rows(std::span<const LaneRow> rows, std::uint32_t first, std::uint32_t last,
+                        std::span<const LaneBall> balls, std::span<const LaneBox> boxes,
+                        float slack, std::uint32_t lanes, std::vector<LaneHit>& hits,
+                        std::vector<LaneHit>& sure);
 
 }  // namespace touchstone

@@ -32,25 +32,60 @@ TOUCHSTONE_TARGET inline Lanes::Vector squared_gap(const LaneBall& ball, const L
   return x * x + y * y + z * z;
 }
 
-TOUCHSTONE_TARGET std::uint32_t scan(std::span<const LaneRow> rows, std::span<const LaneBall> balls,
-                                     std::span<const LaneBox> boxes, std::uint32_t alive,
-                                     std::vector<LaneHit>& hits) {
-  for (std::uint32_t i = 0; i < rows.size() && alive != 0; ++i) {
+TOUCHSTONE_TARGET std::uint32_t scan(std::span<const LaneRow> rows, std::uint32_t first,
+                                     std::uint32_t last, std::span<const LaneBall> balls,
+                                     std::span<const LaneBox> boxes, float slack,
+                                     std::uint32_t lanes, std::vector<LaneHit>& hits,
+                                     std::vector<LaneHit>& sure) {
+  for (std::uint32_t i = first; i < last && lanes != 0; ++i) {
     const LaneRow& row = rows[i];
-    const auto may = Lanes::broadcast(row.may * row.may);
-    const auto sure = Lanes::broadcast(row.sure >= 0 ? row.sure * row.sure : -1);
-    std::uint32_t near = 0, within = 0;
-    for (std::size_t at = 0; at < pose_lanes; at += Lanes::width) {
-      const auto gap = row.is_box ? squared_gap(balls[row.ball], boxes[row.other], at)
-                                  : squared_gap(balls[row.ball], balls[row.other], at);
-      near |= static_cast<std::uint32_t>(Lanes::to_bits(Lanes::less_equal(gap, may))) << at;
-      within |= static_cast<std::uint32_t>(Lanes::to_bits(Lanes::less_equal(gap, sure))) << at;
+    const float widest = row.reach + slack;
+    const auto may = Lanes::broadcast(widest * widest);
+    Lanes::Vector gaps[pose_lanes / Lanes::width];
+    std::uint32_t near = 0;
+    for (std::size_t part = 0; part < pose_lanes / Lanes::width; ++part) {
+      const std::size_t at = part * Lanes::width;
+      gaps[part] = row.is_box ? squared_gap(balls[row.ball], boxes[row.other], at)
+                              : squared_gap(balls[row.ball], balls[row.other], at);
+      near |= static_cast<std::uint32_t>(Lanes::to_bits(Lanes::less_equal(gaps[part], may))) << at;
     }
-    near &= alive;
+    near &= lanes;
     if (near == 0) continue;
-    within &= alive;
-    hits.push_back({i, near, within});
-    alive &= ~within;
+    const float narrowest = row.reach - slack;
+    if (row.decides && narrowest >= 0) {
+      const auto within = Lanes::broadcast(narrowest * narrowest);
+      std::uint32_t certain = 0;
+      for (std::size_t part = 0; part < pose_lanes / Lanes::width; ++part) {
+        certain |= static_cast<std::uint32_t>(Lanes::to_bits(Lanes::less_equal(gaps[part], within)))
+                   << part * Lanes::width;
+      }
+      certain &= lanes;
+      if (certain != 0) sure.push_back({i, certain});
+      lanes &= ~certain;
+      near &= ~certain;
+      if (near == 0) continue;
+    }
+    hits.push_back({i, near});
   }
-  return alive;
+  return lanes;
+}
+
+// One coordinate in the lanes from `at` on; `row` has the numbers of a row of the pose.
+TOUCHSTONE_TARGET inline Lanes::Vector along_row(const LaneNumbers* row, Lanes::Vector x,
+                                                 Lanes::Vector y, Lanes::Vector z, std::size_t at) {
+  return Lanes::load(row[0].data() + at) * x + Lanes::load(row[1].data() + at) * y +
+         Lanes::load(row[2].data() + at) * z + Lanes::load(row[3].data() + at);
+}
+
+TOUCHSTONE_TARGET void place(const LanePose& link, std::span<const std::array<float, 3>> centres,
+                             std::span<LaneBall> balls) {
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const auto x = Lanes::broadcast(centres[i][0]), y = Lanes::broadcast(centres[i][1]),
+               z = Lanes::broadcast(centres[i][2]);
+    for (std::size_t at = 0; at < pose_lanes; at += Lanes::width) {
+      Lanes::store(balls[i].x.data() + at, along_row(link.rows.data(), x, y, z, at));
+      Lanes::store(balls[i].y.data() + at, along_row(link.rows.data() + 4, x, y, z, at));
+      Lanes::store(balls[i].z.data() + at, along_row(link.rows.data() + 8, x, y, z, at));
+    }
+  }
 }

@@ -34,79 +34,156 @@ class PoseLanes final : public PairSearch {
   }
 
  private:
-  static constexpr float unknown = -1;
-
   // --- bind ---
 
   void prepare(const ConfigurationModel& model) override {
     groups_ = LinkGroups(model_, model);
-    const std::size_t links = model.links, parts = model.parts.size();
-    balls_.assign(links + parts, LaneBall{});
-    boxes_.clear();
-    box_of_.assign(parts, 0);
-    rows_.clear();
-    pair_of_row_.clear();
-    // What is rounded to floats is off by a part of this (metres): lanes tell only what holds by more.
     is_bounded_ = true;
-    for (std::uint32_t part = 0; part < parts; ++part) {
-      if (!std::isfinite(model_.bounds(part).radius) && model_.bounds(part).radius > 0) {
-        is_bounded_ = false;
-      }
+    for (std::uint32_t part = 0; part < model_.parts(); ++part) {
+      const double radius = model_.bounds(part).radius;
+      if (!std::isfinite(radius) && radius > 0) is_bounded_ = false;
     }
     if (!is_bounded_) return;
+    place_world(model.parts.size());
+    number_balls();
+    list_rows();
+    lanes_of_links_.resize(model.links);
+    placed_.assign(model.links, 0);
+    block_ = 0;
+  }
+
+  void place_world(std::size_t parts) {
     reach_ = 0;
+    boxes_.clear();
+    world_place_.assign(parts, 0);
     for (const std::uint32_t part : groups_.world()) {
       const PartBounds& bounds = model_.bounds(part);
       reach_ = std::max(reach_, bounds.centre.norm() + bounds.radius);
-      box_of_[part] = static_cast<std::uint32_t>(boxes_.size());
-      boxes_.push_back(lane_box(bounds));
-      set_all(balls_[links + part], bounds.centre);
+      world_place_[part] = static_cast<std::uint32_t>(boxes_.size());
+      LaneBox& box = boxes_.emplace_back();
+      box.is_level = bounds.axes == Mat3d::Identity();
+      box.centre = to_floats(bounds.centre);
+      box.half = to_floats(bounds.half);
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto along = to_floats(bounds.axes.col(axis));
+        std::ranges::copy(along, box.axes.begin() + 3 * axis);
+      }
     }
+  }
+
+  // The ball of a link comes first, and those of its parts behind it. Behind all links are the balls of the world.
+  void number_balls() {
+    centres_.clear();
+    first_ball_.clear();
+    ball_of_.assign(model_.parts(), 0);
     for (const LinkGroup& link : groups_.links()) {
+      first_ball_.push_back(static_cast<std::uint32_t>(centres_.size()));
+      centres_.push_back(to_floats(link.centre));
       reach_ = std::max(reach_, link.centre.norm() + link.radius);
+      for (const std::uint32_t part : link.parts) {
+        ball_of_[part] = static_cast<std::uint32_t>(centres_.size());
+        centres_.push_back(to_floats(model_.bounds(part).centre));
+      }
     }
+    first_ball_.push_back(static_cast<std::uint32_t>(centres_.size()));
+    balls_.assign(centres_.size() + groups_.world().size(), LaneBall{});
+    for (const std::uint32_t part : groups_.world()) {
+      ball_of_[part] = static_cast<std::uint32_t>(centres_.size()) + world_place_[part];
+      const auto centre = to_floats(model_.bounds(part).centre);
+      LaneBall& ball = balls_[ball_of_[part]];
+      ball.x.fill(centre[0]);
+      ball.y.fill(centre[1]);
+      ball.z.fill(centre[2]);
+    }
+  }
+
+  // First those of whole links; then, for each of them, those of parts.
+  void list_rows() {
+    rows_.clear();
+    pairs_.clear();
+    link_of_row_.clear();
+    const auto links = static_cast<std::uint32_t>(groups_.links().size());
     for (std::uint32_t link = 0; link < links; ++link) {
       if (groups_.links()[link].parts.empty()) continue;
       for (const std::uint32_t part : groups_.world()) {
         if (!groups_.asks_link(link, part)) continue;
-        rows_.push_back(
-            {link, box_of_[part], true, static_cast<float>(groups_.links()[link].radius), unknown});
-        pair_of_row_.push_back({link, part});
+        add_row(first_ball_[link], world_place_[part], true, groups_.links()[link].radius, false,
+                {link, part});
+        link_of_row_.push_back({link, link});
       }
     }
-    for (std::uint32_t i = 0; i < groups_.pairs().size(); ++i) {
-      const LinkPairs& pair = groups_.pairs()[i];
-      rows_.push_back(
-          {pair.a, pair.b, false,
-           static_cast<float>(groups_.links()[pair.a].radius + groups_.links()[pair.b].radius),
-           unknown});
-      pair_of_row_.push_back({i, LaneRow::none});
+    const auto world_rows = static_cast<std::uint32_t>(rows_.size());
+    for (const LinkPairs& pair : groups_.pairs()) {
+      add_row(first_ball_[pair.a], first_ball_[pair.b], false,
+              groups_.links()[pair.a].radius + groups_.links()[pair.b].radius, false,
+              {pair.a, pair.b});
+      link_of_row_.push_back({pair.a, pair.b});
     }
-    widest_.resize(rows_.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i) widest_[i] = rows_[i].may;
-    placed_links_.assign(links, 0);
-  }
-
-  static LaneBox lane_box(const PartBounds& bounds) {
-    LaneBox box;
-    for (int i = 0; i < 3; ++i) {
-      box.centre[static_cast<std::size_t>(i)] = static_cast<float>(bounds.centre[i]);
-      box.half[static_cast<std::size_t>(i)] = static_cast<float>(bounds.half[i]);
-      for (int k = 0; k < 3; ++k) {
-        box.axes[static_cast<std::size_t>(3 * i + k)] = static_cast<float>(bounds.axes(k, i));
+    roots_ = static_cast<std::uint32_t>(rows_.size());
+    for (std::uint32_t row = 0; row < roots_; ++row) {
+      const auto first = static_cast<std::uint32_t>(rows_.size());
+      if (row < world_rows) {
+        const auto [link, other] = pairs_[row];
+        for (const std::uint32_t part : groups_.links()[link].parts) {
+          if (groups_.asks(part, other)) add_parts(part, other, true);
+        }
+      } else {
+        list_parts(groups_.pairs()[row - world_rows]);
       }
+      // Those of a pair of links have rows below them, which come behind.
+      rows_[row].first = first;
+      rows_[row].last = row < world_rows ? static_cast<std::uint32_t>(rows_.size()) : heads_;
     }
-    box.is_level = bounds.axes == Mat3d::Identity();
-    return box;
   }
 
-  static void set(LaneBall& ball, std::size_t lane, const Vec3d& centre) {
-    ball.x[lane] = static_cast<float>(centre.x());
-    ball.y[lane] = static_cast<float>(centre.y());
-    ball.z[lane] = static_cast<float>(centre.z());
+  // Each part of the first link with the ball of the second, and below it with the parts of that.
+  void list_parts(const LinkPairs& links) {
+    std::vector<std::uint32_t> parts;
+    for (const IndexPair& pair : links.pairs) parts.push_back(of_link(pair, links.a).first);
+    std::ranges::sort(parts);
+    parts.erase(std::ranges::unique(parts).begin(), parts.end());
+    const auto first = static_cast<std::uint32_t>(rows_.size());
+    for (const std::uint32_t part : parts) {
+      add_row(ball_of_[part], first_ball_[links.b], false,
+              model_.bounds(part).radius + groups_.links()[links.b].radius, false, {});
+    }
+    heads_ = static_cast<std::uint32_t>(rows_.size());
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+      rows_[first + i].first = static_cast<std::uint32_t>(rows_.size());
+      for (const IndexPair& pair : links.pairs) {
+        const auto [one, other] = of_link(pair, links.a);
+        if (one == parts[i]) add_parts(one, other, false);
+      }
+      rows_[first + i].last = static_cast<std::uint32_t>(rows_.size());
+    }
   }
-  static void set_all(LaneBall& ball, const Vec3d& centre) {
-    for (std::size_t lane = 0; lane < pose_lanes; ++lane) set(ball, lane, centre);
+
+  // The part of this link, and the other part.
+  std::pair<std::uint32_t, std::uint32_t> of_link(const IndexPair& pair, std::uint32_t link) const {
+    return model_.link_of(pair.a) == link ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);
+  }
+
+  void add_parts(std::uint32_t part, std::uint32_t other, bool of_world) {
+    const PartBounds &one = model_.bounds(part), &two = model_.bounds(other);
+    const bool is_box = of_world && !two.is_ball;
+    const bool decides = one.is_ball && (is_box ? two.is_box : two.is_ball);
+    add_row(ball_of_[part], is_box ? world_place_[other] : ball_of_[other], is_box,
+            one.radius + (is_box ? 0 : two.radius), decides,
+            {std::min(part, other), std::max(part, other)});
+  }
+
+  void add_row(std::uint32_t ball, std::uint32_t other, bool is_box, double reach, bool decides,
+               const IndexPair& pair) {
+    rows_.push_back({.ball = ball,
+                     .other = other,
+                     .reach = static_cast<float>(reach),
+                     .is_box = is_box,
+                     .decides = decides});
+    pairs_.push_back(pair);
+  }
+
+  static std::array<float, 3> to_floats(const Vec3d& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
   }
 
   // --- ask ---
@@ -137,104 +214,99 @@ class PoseLanes final : public PairSearch {
 
   void find_block(const Configurations& all, std::size_t first,
                   std::span<ConfigurationAnswer> answers) {
-    const std::size_t count = answers.size();
-    double furthest = 0;
-    for (const Pose& pose : all.poses.subspan(first * all.links, count * all.links)) {
-      furthest = std::max(furthest, pose.translation.cwiseAbs().maxCoeff());
-    }
-    slack_ = static_cast<float>(0x1p-19 * (furthest + reach_));
     ++block_;
-    for (std::uint32_t link = 0; link < all.links; ++link) {
-      const LinkGroup& group = groups_.links()[link];
-      if (group.parts.empty()) continue;
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        set(balls_[link], lane, all.of(first + lane)[link](group.centre));
-      }
+    begin(all, first, answers.size());
+    for (ConfigurationAnswer& answer : answers) {
+      answer = ConfigurationAnswer{};
+      answer.answer = Answer::separated;
+      answer.status = Status::ok;
     }
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].may = widest_[i] + slack_;
-    hits_.clear();
-    const auto every = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-    scan_rows(rows_, balls_, boxes_, every, hits_);
-    list_parts(all, first, count);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      answers[lane] = ConfigurationAnswer{};
-      answers[lane].answer = Answer::separated;
-      answers[lane].status = Status::ok;
-    }
-    part_hits_.clear();
-    std::uint32_t alive = scan_rows(part_rows_, balls_, boxes_, every, part_hits_);
     for (auto& list : near_) list.clear();
-    for (const LaneHit& hit : part_hits_) {
-      const IndexPair& pair = part_pairs_[hit.row];
-      for (std::uint32_t lanes = hit.may & ~hit.sure; lanes != 0; lanes &= lanes - 1) {
-        near_[static_cast<std::size_t>(std::countr_zero(lanes))].push_back(pair);
-      }
-      for (std::uint32_t lanes = hit.sure; lanes != 0; lanes &= lanes - 1) {
+    sure_.clear();
+    const auto every = static_cast<std::uint32_t>((std::uint64_t{1} << answers.size()) - 1);
+    alive_ = every;
+    descend(0, roots_, every, 0);
+    for (const LaneHit& hit : sure_) {
+      for (std::uint32_t lanes = hit.lanes; lanes != 0; lanes &= lanes - 1) {
         ConfigurationAnswer& answer = answers[static_cast<std::size_t>(std::countr_zero(lanes))];
         answer.answer = Answer::overlapping;
-        answer.pair = pair;
+        answer.pair = pairs_[hit.row];
       }
     }
-    for (; alive != 0; alive &= alive - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(alive));
+    for (std::uint32_t lanes = alive_; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       if (near_[lane].empty()) continue;
       asked_ = near_[lane];
       answers[lane] = find(all.of(first + lane));
     }
   }
 
-  // The rows of the parts of links that may be near something.
-  void list_parts(const Configurations& all, std::size_t first, std::size_t count) {
-    part_rows_.clear();
-    part_pairs_.clear();
-    const auto links = static_cast<std::uint32_t>(groups_.links().size());
-    const auto add = [&](std::uint32_t part, std::uint32_t other, bool is_box) {
-      const PartBounds &one = model_.bounds(part), &two = model_.bounds(other);
-      const double radius = one.radius + (is_box ? 0 : two.radius);
-      const bool decides = one.is_ball && (is_box ? two.is_box : two.is_ball);
-      part_rows_.push_back({links + part, is_box ? box_of_[other] : links + other, is_box,
-                            static_cast<float>(radius) + slack_,
-                            decides ? static_cast<float>(radius) - slack_ : unknown});
-      part_pairs_.push_back({std::min(part, other), std::max(part, other)});
-    };
-    for (const LaneHit& hit : hits_) {
-      const IndexPair& of = pair_of_row_[hit.row];
-      if (of.b != LaneRow::none) {
-        place_parts(of.a, all, first, count);
-        for (const std::uint32_t part : groups_.links()[of.a].parts) {
-          if (groups_.asks(part, of.b)) add(part, of.b, !model_.bounds(of.b).is_ball);
+  // The poses of links as lanes of floats, and the balls of links. What is rounded to floats is off by less than the slack.
+  void begin(const Configurations& all, std::size_t first, std::size_t count) {
+    float furthest = 0;
+    for (std::uint32_t link = 0; link < all.links; ++link) {
+      if (groups_.links()[link].parts.empty()) continue;
+      LanePose& lanes = lanes_of_links_[link];
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const Pose& pose = all.poses[(first + lane) * all.links + link];
+        for (std::size_t row = 0; row < 3; ++row) {
+          const auto i = static_cast<Eigen::Index>(row);
+          for (std::size_t k = 0; k < 3; ++k) {
+            lanes.rows[4 * row + k][lane] =
+                static_cast<float>(pose.rotation(i, static_cast<Eigen::Index>(k)));
+          }
+          const auto along = static_cast<float>(pose.translation[i]);
+          lanes.rows[4 * row + 3][lane] = along;
+          furthest = std::max(furthest, std::abs(along));
+        }
+      }
+      place(link, 0, 1);
+    }
+    slack_ = 0x1p-19F * (furthest + static_cast<float>(reach_));
+  }
+
+  // Places balls of a link: of itself, the first, and of its parts.
+  void place(std::uint32_t link, std::uint32_t first, std::uint32_t count) {
+    const std::uint32_t from = first_ball_[link] + first;
+    place_balls(lanes_of_links_[link], std::span(centres_).subspan(from, count),
+                std::span(balls_).subspan(from, count));
+  }
+  void place_parts(std::uint32_t link) {
+    if (placed_[link] == block_) return;
+    placed_[link] = block_;
+    place(link, 1, first_ball_[link + 1] - first_ball_[link] - 1);
+  }
+
+  // Asks rows, and below those that may meet further ones in the lanes in which they may.
+  void descend(std::uint32_t first, std::uint32_t last, std::uint32_t lanes, std::size_t depth) {
+    std::vector<LaneHit>& hits = hits_[depth];
+    hits.clear();
+    const std::uint32_t left =
+        scan_rows(rows_, first, last, balls_, boxes_, slack_, lanes, hits, sure_);
+    alive_ &= ~(lanes & ~left);
+    for (const LaneHit& hit : hits) {
+      const LaneRow& row = rows_[hit.row];
+      const std::uint32_t within = hit.lanes & alive_;
+      if (within == 0) continue;
+      if (row.first == row.last) {
+        for (std::uint32_t rest = within; rest != 0; rest &= rest - 1) {
+          near_[static_cast<std::size_t>(std::countr_zero(rest))].push_back(pairs_[hit.row]);
         }
         continue;
       }
-      const LinkPairs& links_pair = groups_.pairs()[of.a];
-      place_parts(links_pair.a, all, first, count);
-      place_parts(links_pair.b, all, first, count);
-      for (const IndexPair& pair : links_pair.pairs) add(pair.a, pair.b, false);
-    }
-  }
-
-  void place_parts(std::uint32_t link, const Configurations& all, std::size_t first,
-                   std::size_t count) {
-    if (placed_links_[link] == block_) return;
-    placed_links_[link] = block_;
-    const std::size_t links = groups_.links().size();
-    for (const std::uint32_t part : groups_.links()[link].parts) {
-      const Vec3d& centre = model_.bounds(part).centre;
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        set(balls_[links + part], lane, all.of(first + lane)[link](centre));
+      if (depth == 0) {
+        place_parts(link_of_row_[hit.row].a);
+        place_parts(link_of_row_[hit.row].b);
       }
+      descend(row.first, row.last, within, depth + 1);
     }
   }
 
   // Of the lane at hand the pairs that its balls left.
   IndexPair search(std::span<const Pose>) override {
-    if (!is_bounded_) {
-      for (const IndexPair& pair : model_.pairs()) {
-        if (is_some(settle(pair))) return pair;
-      }
-      return nothing;
-    }
-    for (const IndexPair& pair : asked_) {
+    const std::span<const IndexPair> pairs =
+        is_bounded_ ? std::span<const IndexPair>(asked_) : model_.pairs();
+    for (const IndexPair& pair : pairs) {
       if (is_some(settle(pair))) return pair;
     }
     return nothing;
@@ -243,18 +315,25 @@ class PoseLanes final : public PairSearch {
   LinkGroups groups_;
   bool is_bounded_ = true;
   double reach_ = 0;
-  float slack_ = 0;
-  // Of links by their numbers, and behind them those of parts; the world's stay.
-  std::vector<LaneBall> balls_;
-  std::vector<LaneBox> boxes_;
-  std::vector<std::uint32_t> box_of_;  // by part of the world
-  // Links with parts of the world, and link pairs; `pair_of_row_` has the link and the part, or the number of the pair.
-  std::vector<LaneRow> rows_, part_rows_;
-  std::vector<float> widest_;
-  std::vector<IndexPair> pair_of_row_, part_pairs_;
-  std::vector<LaneHit> hits_, part_hits_;
+  std::vector<LaneBox> boxes_;                 // of the world
+  std::vector<std::uint32_t> world_place_;     // by part: its place among them
+  std::vector<std::array<float, 3>> centres_;  // of balls, in the frames of their links
+  std::vector<std::uint32_t> first_ball_;      // by link, and behind the last one
+  std::vector<std::uint32_t> ball_of_;         // by part
+  std::vector<LaneRow> rows_;
+  std::vector<IndexPair> pairs_;        // of rows that have none below them: the parts
+  std::vector<IndexPair> link_of_row_;  // of the first rows: the links that they are of
+  std::uint32_t roots_ = 0, heads_ = 0;
+
+  // Of the block at hand.
   std::uint64_t block_ = 0;
-  std::vector<std::uint64_t> placed_links_;
+  std::vector<std::uint64_t> placed_;  // by link: the block in which its parts were placed
+  std::vector<LanePose> lanes_of_links_;
+  std::vector<LaneBall> balls_;
+  float slack_ = 0;
+  std::uint32_t alive_ = 0;
+  std::array<std::vector<LaneHit>, 3> hits_;
+  std::vector<LaneHit> sure_;
   std::array<std::vector<IndexPair>, pose_lanes> near_;
   std::vector<IndexPair> asked_;
 };

@@ -14,10 +14,11 @@
 //          6. motion: step by step, until one is in contact.
 //          7. distance: lower bounds by balls and boxes; pairs are measured from the least on, until it is beyond
 //             the least distance.
-// Departs: VAMP orders the points of a motion by bisection; here they are in order, since the first contact is asked.
+// Departs: VAMP's lanes are configurations spread over a motion; here they follow each other, since the first contact is
+//          asked.
 // Fails:   unknown where the narrow phase or the concave phase is. Which pair is named depends on what was asked
-//          before.
-// Cost:    5 to 50 ns a pair that bounds decide, and the phases' for others; memory for what they hold.
+//          before. With a half-space `pose-lanes` asks as `fixed-pairs` does.
+// Cost:    a few dozen operations for each pair that bounds decide, and that of the phases for others.
 #include "algorithms/configuration/link_pairs/lane_search.h"
 #include "algorithms/configuration/link_pairs/pair_search.h"
 #include "algorithms/configuration/link_pairs/world_tree.h"

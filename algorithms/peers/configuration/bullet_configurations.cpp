@@ -1,12 +1,12 @@
 // Bullet: a tree of all parts' boxes, whose overlapping pairs its dispatcher asks.
 // Paper:   none; Bullet 3.24: btDbvtBroadphase by N. Presson, btCollisionDispatcher, btCompoundShape with its tree, as
-//          MoveIt and Tesseract ask them: each part is a btCollisionObject, a mesh is a compound of triangles, and a filter leaves
-//          out pairs that may touch.
+//          MoveIt and Tesseract ask them: each part is a btCollisionObject, a mesh is a compound of triangles, and a
+//          filter leaves out pairs that may touch.
 // Departs: shapes have no margins, as in bullet-mesh. The boxes of the parts of links are moved in each configuration,
 //          and the pairs of boxes are kept. Only the build in float is used.
 // Fails:   two triangles, and all convex shapes, are those of Bullet's GJK and EPA: it misses touches, and all lengths
 //          are compared with absolute thresholds.
-// Cost:    about 250 bytes a triangle; allocates in each pair that is asked.
+// Cost:    a shape and a child of the compound for each triangle; allocates in each pair that is asked.
 #include "algorithms/configuration_query.h"
 
 #include "algorithms/peers/not_built.h"

@@ -58,7 +58,7 @@ void add_link(Make make, std::uint32_t link, ConfigurationModel& robot, Draws& d
     part.link = link;
     part.pose.translation = {0, 0, (i + 0.5) * link_length / count};
     if (make == Make::balls) {
-      part.body = body_of(primitive(ShapeKind::sphere, 0.12, draws));
+      part.body = body_of(primitive(ShapeKind::sphere, 0.2, draws));
     } else {
       part.pose.rotation = draws.below(2) == 0 ? Mat3d::Identity() : draws.rotation();
       part.body = make == Make::meshes && i == 0 ? any_mesh(link_length / 2, draws)
@@ -117,29 +117,35 @@ ConfigurationModel drawn_robot(std::uint32_t family, Draws& draws) {
 }
 
 DrawnMotion drawn_motion(std::uint32_t family, const ConfigurationModel& robot, Draws& draws) {
-  std::vector<Vec3d> from, by;
-  for (std::uint32_t link = 0; link < robot.links; ++link) {
-    from.push_back(draws.vector(1));
-    by.push_back(draws.vector(0.5));
-  }
+  std::vector<Vec3d> from(robot.links), by(robot.links);
+  const auto draw = [&] {
+    for (Vec3d& turn : from) turn = draws.vector(1);
+    for (Vec3d& turn : by) turn = draws.vector(0.5);
+  };
   const auto at = [&](double s, std::vector<Pose>& poses) {
     std::vector<Vec3d> turns;
     for (std::size_t i = 0; i < from.size(); ++i) turns.push_back(from[i] + s * by[i]);
     add_configuration(turns, poses);
   };
+  draw();
   double end = 1;
   if (is_near_contact(family)) {
+    constexpr int most_tries = 32;
     ConfigurationTruth truth(robot, PairAnswers::fast);
     const auto touches = [&](double s) {
       std::vector<Pose> poses;
       at(s, poses);
       return truth.answer(ConfigurationTask::free, poses, 1).answer == Answer::overlapping;
     };
+    bool begins = touches(0), ends = touches(1);
+    for (int i = 0; begins == ends && i < most_tries; ++i) {
+      draw();
+      begins = touches(0);
+      ends = touches(1);
+    }
     double low = 0, high = 1;
-    const bool begins = touches(low);
     // No point moves by more than 4 metres.
-    const bool changes = begins != touches(high);
-    while (changes && high - low > 1e-7) {
+    while (begins != ends && high - low > 1e-7) {
       const double middle = (low + high) / 2;
       (touches(middle) == begins ? low : high) = middle;
     }

@@ -38,7 +38,8 @@ class ConfigurationTruth {
                              std::uint32_t steps);
   // Whether the pair is asked and shares a point; false if that is not known.
   bool touches(const IndexPair& pair, std::span<const Pose> links);
-  // True for answers without contact, and for those that name a pair in contact. `poses` are of the answer's configuration or motion.
+  // True for answers without contact, and for those that name a pair in contact. `poses` are those of the answer's
+  // configuration or motion.
   bool names_contact(const ConfigurationAnswer& answer, std::span<const Pose> poses);
 
  private:
@@ -56,9 +57,10 @@ struct SceneConfigurations {
   std::vector<std::string> names;
 };
 
-// The bodies of a scene that follow tracks are parts of links, and its frames are the configurations. Consecutive bodies of one
-// name that keep their places relative to each other are one link, in the frame of the first of them; the places of
-// the others in it are rounded. Other bodies are the world. Throws InputError if they move, or nothing follows a track.
+// The bodies of a scene that follow tracks are parts of links, and its frames are the configurations. Consecutive bodies
+// of one name that keep their places relative to each other are one link, in the frame of the first of them. The
+// places of the others in it are rounded. Other bodies are the world. Throws InputError if they move, or nothing
+// follows a track.
 SceneConfigurations scene_configurations(const scene::Scene& scene, const std::string& file);
 
 // Of drawn robots.

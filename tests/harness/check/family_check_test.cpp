@@ -177,9 +177,9 @@ TEST_F(FamilyCheck, GoesOnWhereItWasStopped) {
 TEST_F(FamilyCheck, CountsOfThousands) {
   const PlantedKinds<Habit::no> planted;
   auto request = request_for(planted.contestants(), check::CheckMode::count);
-  request.count = 6000;
+  request.count = 7000;
   const check::CheckReport result = check::run_check(request);
-  EXPECT_EQ(result.jobs, 6);
+  EXPECT_EQ(result.jobs, 7);
   for (const FamilyCount& count : sums(result.of<check::FamilyChecker>().counts())) {
     EXPECT_EQ(count.cases, 1000);
     EXPECT_GT(count.missed, 0);
@@ -194,8 +194,8 @@ TEST_F(FamilyCheck, CountsThatAreTooSmallSaySo) {
   auto request = request_for(planted.contestants(), check::CheckMode::count);
   request.count = 500;
   const std::string text = check::summary_text(check::run_check(request), 120);
-  EXPECT_THAT(text, HasSubstr("Only 1 of 6 regimes and families were asked, each 1000 "
-                              "cases; --count 6000 asks all."));
+  EXPECT_THAT(text, HasSubstr("Only 1 of 7 regimes and families were asked, each 1000 "
+                              "cases; --count 7000 asks all."));
   EXPECT_THAT(text, HasSubstr("Bodies that need not be convex"));
   EXPECT_THAT(text, Not(HasSubstr("Points")));
 }
