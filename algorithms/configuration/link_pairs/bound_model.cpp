@@ -64,6 +64,8 @@ PartBounds around(const Shape& shape) {
     case ShapeKind::halfspace:
       bounds.half.setConstant(infinite);
       bounds.radius = infinite;
+      bounds.normal = shape.normal / shape.normal.norm();
+      bounds.offset = shape.offset / shape.normal.norm();
       return bounds;
   }
   bounds.radius = bounds.half.norm();
@@ -73,6 +75,9 @@ PartBounds around(const Shape& shape) {
 void move(PartBounds& bounds, const Pose& pose) {
   bounds.centre = pose(bounds.centre);
   bounds.axes = pose.rotation * bounds.axes;
+  if (!bounds.is_plane()) return;
+  bounds.normal = pose.rotation * bounds.normal;
+  bounds.offset += bounds.normal.dot(pose.translation);
 }
 
 // Around the boxes of all parts.
@@ -129,6 +134,7 @@ void BoundModel::bind(const ConfigurationModel& model, const ConfigurationSettin
     if (convex) shapes_[i] = part.body.parts.front().shape;
     bodies_.push_back(part.body);
     (convex ? some_convex : some_concave) = true;
+    if (bounds.is_plane()) reach_ = std::max(reach_, std::abs(bounds.offset));
     if (std::isfinite(bounds.radius)) {
       reach_ =
           std::max(reach_, bounds.centre.norm() + bounds.radius + part.pose.translation.norm());
@@ -230,6 +236,12 @@ bool BoundModel::boxes_are_apart(std::uint32_t a, std::uint32_t b) {
 
 BoundModel::Bound BoundModel::bound(const IndexPair& pair) {
   const auto [a, b] = pair;
+  for (const auto& [part, ground] : {IndexPair{a, b}, IndexPair{b, a}}) {
+    if (!is_ground(ground)) continue;
+    const double above = height(part, ground);
+    if (above > slack_) return Bound::apart;
+    return bounds_[part].is_ball && above < -slack_ ? Bound::touch : Bound::open;
+  }
   if (balls_are_apart(a, b)) return Bound::apart;
   const PartBounds &of_a = bounds_[a], &of_b = bounds_[b];
   const auto within = [&](double squared, double reach) {
@@ -251,6 +263,11 @@ BoundModel::Bound BoundModel::bound(const IndexPair& pair) {
 
 BoundModel::Gap BoundModel::gap(const IndexPair& pair) {
   const auto [a, b] = pair;
+  for (const auto& [part, ground] : {IndexPair{a, b}, IndexPair{b, a}}) {
+    if (!is_ground(ground)) continue;
+    const bool is_ball = bounds_[part].is_ball;
+    return {height(part, ground) - (is_ball ? 0 : slack_), is_ball};
+  }
   const PartBounds &of_a = bounds_[a], &of_b = bounds_[b];
   double least = (centre(a) - centre(b)).norm() - of_a.radius - of_b.radius;
   if (of_a.is_ball && of_b.is_ball) return {least, true};

@@ -17,6 +17,11 @@ struct PartBounds {
   Mat3d axes = Mat3d::Identity();
   Vec3d half = Vec3d::Zero();            // of the box, along its axes
   bool is_ball = false, is_box = false;  // the part is no less than that
+  // Of a half-space: the points with normal . x <= offset, and the normal of unit length; else zero.
+  Vec3d normal = Vec3d::Zero();
+  double offset = 0;
+
+  bool is_plane() const { return normal != Vec3d::Zero(); }
 };
 
 class BoundModel {
@@ -70,6 +75,15 @@ class BoundModel {
   // How far a point is from the box around a part (metres), squared.
   double squared_gap_of_box(const Vec3d& point, std::uint32_t part);
   bool boxes_are_apart(std::uint32_t a, std::uint32_t b);
+  // Whether a part is a half-space that stands still.
+  bool is_ground(std::uint32_t part) const {
+    return bounds_[part].is_plane() && link_of(part) == ModelPart::world;
+  }
+  // How far the ball around a part is above such a half-space (metres), negative if it reaches into it.
+  double height(std::uint32_t part, std::uint32_t ground) {
+    const PartBounds& plane = bounds_[ground];
+    return plane.normal.dot(centre(part)) - plane.offset - bounds_[part].radius;
+  }
   const Outcome& ask(Task task, const IndexPair& pair);
 
   const ConfigurationModel* model_ = nullptr;

@@ -39,11 +39,14 @@ class PoseLanes final : public PairSearch {
   void prepare(const ConfigurationModel& model) override {
     groups_ = LinkGroups(model_, model);
     is_bounded_ = true;
-    for (std::uint32_t part = 0; part < model_.parts(); ++part) {
-      const double radius = model_.bounds(part).radius;
-      if (!std::isfinite(radius) && radius > 0) is_bounded_ = false;
+    for (const LinkGroup& link : groups_.links()) {
+      is_bounded_ = is_bounded_ && std::isfinite(link.radius);
     }
     if (!is_bounded_) return;
+    unbounded_.clear();
+    for (const IndexPair& pair : model_.pairs()) {
+      if (!is_bounded(pair.a) || !is_bounded(pair.b)) unbounded_.push_back(pair);
+    }
     place_world(model.parts.size());
     number_balls();
     list_rows();
@@ -52,11 +55,14 @@ class PoseLanes final : public PairSearch {
     block_ = 0;
   }
 
+  bool is_bounded(std::uint32_t part) const { return std::isfinite(model_.bounds(part).radius); }
+
   void place_world(std::size_t parts) {
     reach_ = 0;
     boxes_.clear();
     world_place_.assign(parts, 0);
     for (const std::uint32_t part : groups_.world()) {
+      if (!is_bounded(part)) continue;
       const PartBounds& bounds = model_.bounds(part);
       reach_ = std::max(reach_, bounds.centre.norm() + bounds.radius);
       world_place_[part] = static_cast<std::uint32_t>(boxes_.size());
@@ -88,6 +94,7 @@ class PoseLanes final : public PairSearch {
     first_ball_.push_back(static_cast<std::uint32_t>(centres_.size()));
     balls_.assign(centres_.size() + groups_.world().size(), LaneBall{});
     for (const std::uint32_t part : groups_.world()) {
+      if (!is_bounded(part)) continue;
       ball_of_[part] = static_cast<std::uint32_t>(centres_.size()) + world_place_[part];
       const auto centre = to_floats(model_.bounds(part).centre);
       LaneBall& ball = balls_[ball_of_[part]];
@@ -106,7 +113,7 @@ class PoseLanes final : public PairSearch {
     for (std::uint32_t link = 0; link < links; ++link) {
       if (groups_.links()[link].parts.empty()) continue;
       for (const std::uint32_t part : groups_.world()) {
-        if (!groups_.asks_link(link, part)) continue;
+        if (!is_bounded(part) || !groups_.asks_link(link, part)) continue;
         add_row(first_ball_[link], world_place_[part], true, groups_.links()[link].radius, false,
                 {link, part});
         link_of_row_.push_back({link, link});
@@ -235,8 +242,9 @@ class PoseLanes final : public PairSearch {
     }
     for (std::uint32_t lanes = alive_; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      if (near_[lane].empty()) continue;
+      if (near_[lane].empty() && unbounded_.empty()) continue;
       asked_ = near_[lane];
+      asked_.insert(asked_.end(), unbounded_.begin(), unbounded_.end());
       answers[lane] = find(all.of(first + lane));
     }
   }
@@ -320,6 +328,7 @@ class PoseLanes final : public PairSearch {
   std::vector<std::array<float, 3>> centres_;  // of balls, in the frames of their links
   std::vector<std::uint32_t> first_ball_;      // by link, and behind the last one
   std::vector<std::uint32_t> ball_of_;         // by part
+  std::vector<IndexPair> unbounded_;           // pairs with half-spaces, which no lane has
   std::vector<LaneRow> rows_;
   std::vector<IndexPair> pairs_;        // of rows that have none below them: the parts
   std::vector<IndexPair> link_of_row_;  // of the first rows: the links that they are of

@@ -17,7 +17,7 @@
 // Departs: VAMP's lanes are configurations spread over a motion; here they follow each other, since the first contact is
 //          asked.
 // Fails:   unknown where the narrow phase or the concave phase is. Which pair is named depends on what was asked
-//          before. With a half-space `pose-lanes` asks as `fixed-pairs` does.
+//          before.
 // Cost:    a few dozen operations for each pair that bounds decide, and that of the phases for others.
 #include "algorithms/configuration/link_pairs/lane_search.h"
 #include "algorithms/configuration/link_pairs/pair_search.h"

@@ -230,5 +230,51 @@ TEST(Configurations, AgreeWithEveryPairByItself) {
   }
 }
 
+// A half-space below the robot, which reaches it now and then.
+TEST(Configurations, AGroundIsMetByWhatReachesIt) {
+  Random random(2);
+  int contacts = 0, frees = 0;
+  for (int robots = 0; robots < drawn(8, 1); ++robots) {
+    ConfigurationModel model = some_robot(random, robots % 2 == 0);
+    Shape ground;
+    ground.kind = ShapeKind::halfspace;
+    ground.normal = 2 * random.direction();
+    ground.offset = -2.5;
+    const auto number = static_cast<std::uint32_t>(model.parts.size());
+    model.parts.push_back(
+        {{nullptr, {{ground, {}, 0}}}, ModelPart::world, {random.rotation(), random.vector(0.1)}});
+    for (std::uint32_t part = 0; part < number; ++part) {
+      if (model.parts[part].link != ModelPart::world) model.pairs.push_back({part, number});
+    }
+    std::ranges::sort(model.pairs);
+    constexpr std::size_t count = 32;
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < count; ++i) add_configuration(random, model.links, poses);
+    for (const ConfigurationTask task : {ConfigurationTask::free, ConfigurationTask::distance}) {
+      std::vector<ConfigurationAnswer> right(count), answers(count);
+      const Configurations all = {poses, model.links, 1};
+      const auto truth = query_of(exact());
+      truth->bind(model);
+      truth->solve(task, all, right);
+      for (const ConfigurationEntry* entry : asked(task)) {
+        if (entry->info.origin != Origin::ours) continue;
+        const auto query = query_of(*entry);
+        query->bind(model);
+        query->solve(task, all, answers);
+        for (std::size_t i = 0; i < count; ++i) {
+          EXPECT_EQ(answers[i].answer, right[i].answer) << entry->info.name << " " << i;
+          if (task == ConfigurationTask::free) {
+            ++(right[i].answer == Answer::overlapping ? contacts : frees);
+          } else {
+            EXPECT_NEAR(answers[i].distance, right[i].distance, 1e-11) << entry->info.name;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(contacts, 5);
+  EXPECT_GT(frees, 5);
+}
+
 }  // namespace
 }  // namespace touchstone
