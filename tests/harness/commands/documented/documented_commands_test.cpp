@@ -85,19 +85,9 @@ std::vector<std::vector<std::string>> commands_in(const std::string& text) {
 bool is_known_name(const std::string& name) {
   static const std::set<std::string> names = [] {
     std::set<std::string> all = {"all", "ours", "libraries", "peers", "oracle", "modules", "none"};
-    const auto add = [&](const auto& entries) {
-      for (const auto& entry : entries) all.insert(entry.info.name);
-    };
-    add(registry::entries<BroadPhaseEntry>());
-    add(registry::entries<NarrowPhaseEntry>());
-    add(registry::entries<ManifoldEntry>());
-    add(registry::entries<RayCastEntry>());
-    add(registry::entries<SceneRayCastEntry>());
-    add(registry::entries<PointQueryEntry>());
-    add(registry::entries<MidPhaseEntry>());
-    add(registry::entries<ConcaveEntry>());
-    add(registry::entries<CastEntry>());
-    add(registry::entries<CcdEntry>());
+    registry::for_each_kind([&]<class Entry>() {
+      for (const Entry& entry : registry::entries<Entry>()) all.insert(entry.info.name);
+    });
     return all;
   }();
   // Capitals are what a reader puts in.
