@@ -1,10 +1,10 @@
 # Writes the bill of materials of the program (SPDX 2.3, JSON): the libraries that it was linked with or has compiled in,
 # and the npm packages inside the page, each with its version and licence.
 #
-#   cmake -D PROGRAM=FILE -D VERSION=V -D DATE=YYYY-MM-DD -D SOURCE=FOLDER -D OUT=FILE -P make_bill.cmake
+#   cmake -D PROGRAM=FILE -D VERSION=V -D DATE=YYYY-MM-DD -D SOURCE=FOLDER -D CGAL=ON|OFF -D OUT=FILE -P make_bill.cmake
 #
 # Licences of Debian's packages are those of packages.csv, versions those of dpkg. Where there is no dpkg, a library has the
-# name of its file and no version.
+# name of its file and no version, and one that is compiled in has no version.
 cmake_policy(VERSION 3.22)
 set(bill [[{"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
   "creationInfo": {"creators": ["Tool: touchstone-make_bill.cmake"]}, "packages": [], "relationships": []}]])
@@ -71,13 +71,12 @@ foreach(row IN LISTS rows)
   set(licence_of_${package} "${licence}")
   if(DEFINED source_of_${package})
     set(licence_of_source_${source_of_${package}} "${licence}")
-    if(use STREQUAL "compiled in" AND NOT package MATCHES "python|pybind")
-      list(APPEND compiled_in ${package})
-    endif()
+  endif()
+  if(use STREQUAL "compiled in" AND NOT package MATCHES "python|pybind")
+    list(APPEND compiled_in ${package})
   endif()
 endforeach()
-file(STRINGS ${PROGRAM} has_cgal REGEX "CGAL" LIMIT_COUNT 1)
-if(has_cgal)
+if(CGAL)
   set(program_licence GPL-3.0-or-later)
 else()
   list(REMOVE_ITEM compiled_in libcgal-dev)

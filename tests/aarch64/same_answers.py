@@ -3,7 +3,7 @@
 
 usage: same_answers.py HERE THERE
 
-An algorithm that one of them has not built is left out.
+Algorithms of libraries are left out.
 """
 
 import collections
@@ -23,7 +23,10 @@ def rows_of(folder):
     with open(pathlib.Path(folder, "raw.csv"), newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             if row["kind"] == "check" and row["origin"] != "peer":
-                rows[tuple(row[name] for name in WHICH)] = row
+                which = tuple(row[name] for name in WHICH)
+                if which in rows:
+                    sys.exit(f"{file.name}: two rows of {dict(zip(WHICH, which))}")
+                rows[which] = row
     return rows
 
 

@@ -234,6 +234,7 @@ def main():
     parser.add_argument("program", help="the built touchstone", type=lambda name: str(pathlib.Path(name).resolve()))
     parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--least", type=int, default=1, help="kills, and full disks, without which it has shown nothing")
     options = parser.parse_args()
     begin_own_mounts()
     with tempfile.TemporaryDirectory(prefix="touchstone-") as name:
@@ -242,7 +243,7 @@ def main():
             disk.resize(ROOM)
             chaos = Chaos(options.program, random.Random(options.seed), folder, disk)
             end = time.monotonic() + options.seconds
-            while time.monotonic() < end:
+            while time.monotonic() < end or min(chaos.counts["kills"], chaos.counts["full disks"]) < options.least:
                 chaos.one_command()
             counts, of_kind = ({name: counter[name] for name in sorted(counter)} for counter in (chaos.counts, chaos.of_kind))
             print(f"{counts}; {of_kind}; each ended with the results of an undisturbed command")
