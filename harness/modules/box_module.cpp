@@ -26,11 +26,13 @@ class BoxModule final : public BroadPhase {
       : instance_(offer, settings_of(executor)) {}
 
   void build(std::span<const Aabb> boxes) override {
+    count_ = boxes.size();
     instance_.table().build(instance_.made(), theirs(boxes.data()), boxes.size());
   }
 
   void update(const FrameChange& change) override {
     if (instance_.table().update == nullptr) return build(change.boxes);
+    count_ = change.boxes.size();
     const TouchstoneModuleFrame frame = {.struct_size = sizeof frame,
                                          .reserved = 0,
                                          .boxes = theirs(change.boxes.data()),
@@ -53,6 +55,15 @@ class BoxModule final : public BroadPhase {
       throw process::Garbage(
           fmt::format("{}: find_pairs returned {}; expected a status", instance_.name(), status));
     }
+    // Whoever is handed the pairs looks up their bodies. One pass over numbers that were just written: a comparison each.
+    std::uint32_t greatest = 0;
+    for (const IndexPair& pair : sink.chunk(0).pairs()) {
+      greatest = std::max({greatest, pair.a, pair.b});
+    }
+    if (greatest >= std::max<std::size_t>(count_, 1)) {
+      throw process::Garbage(fmt::format("{}: found a pair with box {}; expected less than {}",
+                                         instance_.name(), greatest, count_));
+    }
     return static_cast<Status>(status);
   }
 
@@ -62,6 +73,7 @@ class BoxModule final : public BroadPhase {
 
  private:
   Instance<TouchstoneModuleBoxes> instance_;
+  std::size_t count_ = 0;  // boxes
 };
 
 }  // namespace

@@ -15,6 +15,8 @@
 #include "algorithms/oracle/certificates/parts/parts_certificate_check.h"
 #include "algorithms/oracle/certificates/parts/scene_ray_check.h"
 #include "harness/base/error.h"
+#include "harness/campaign/campaign.h"
+#include "harness/cells/read_cells.h"
 #include "harness/files/callgrind.h"
 #include "harness/files/cases.h"
 #include "harness/files/ccd_queries.h"
@@ -25,8 +27,10 @@
 #include "harness/files/parts_certificates.h"
 #include "harness/files/ray_certificates.h"
 #include "harness/geometry/mesh.h"
+#include "harness/record/machine.h"
 #include "harness/scene/box_frames.h"
 #include "harness/scene/scene.h"
+#include "harness/stats/samples.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -117,6 +121,7 @@ const std::vector<Reader>& list() {
   constexpr std::string_view two_balls =
       "poses = \"log.csv\"\n[[body]]\nname = \"one\"\nshape = {type = \"sphere\", radius = 1}\n"
       "[[body]]\nname = \"two\"\nshape = {type = \"sphere\", radius = 1}\n";
+  constexpr std::string_view generated = "generator = \"uniform\"\ncount = 4\n";
   static const std::string with_random = std::string(of_robot) + "{random = 2}\n";
   static const std::string with_path = std::string(of_robot) + "\"path.csv\"\n";
   static const std::string with_request =
@@ -169,6 +174,13 @@ const std::vector<Reader>& list() {
       {"ray-proofs", "proofs.jsonl", check_rays},
       {"point-proofs", "proofs.jsonl", check_points},
       {"callgrind", "callgrind.out", [](const fs::path& file) { files::read_callgrind(file); }},
+      {"campaign",
+       "campaign.toml",
+       [](const fs::path& file) { campaign::description(campaign::read_campaign(file)); },
+       {{"scene.toml", generated}}},
+      {"sets", "sets.toml", [](const fs::path& file) { cells::read_cells(file); }},
+      {"raw", "raw.csv", [](const fs::path& file) { stats::read_results(file); }},
+      {"facts", "machine.csv", [](const fs::path& file) { record::read_facts(file); }},
       {"zstd", "rows.csv.zst", read_lines},
   };
   return all;

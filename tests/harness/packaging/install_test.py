@@ -6,6 +6,7 @@ usage: install_test.py CMAKE BUILD SOURCE VERSION
 Root hides the source tree and the build behind empty folders, in a mount namespace of the command alone. Others look whether
 the program names them.
 """
+import json
 import os
 import subprocess
 import sys
@@ -67,6 +68,20 @@ def check_files(prefix):
             expect(name not in ("local", "node_modules", "__pycache__", "CMakeLists.txt"), f"{folder}/{name} is installed")
     with open(os.path.join(prefix, "bin/touchstone"), "rb") as file:
         expect(source.encode() + b"/" not in file.read(), "the program names the source tree")
+
+
+def check_bill(prefix):
+    """The bill of materials names what the program loads, and a licence of each."""
+    with open(os.path.join(prefix, "share/doc/touchstone/touchstone.spdx.json"), encoding="utf-8") as file:
+        bill = json.load(file)
+    expect(bill["spdxVersion"] == "SPDX-2.3" and version in bill["name"], f"the bill of materials is of {bill['name']}")
+    ids = {package["SPDXID"] for package in bill["packages"]} | {bill["SPDXID"]}
+    for relationship in bill["relationships"]:
+        expect({relationship["spdxElementId"], relationship["relatedSpdxElement"]} <= ids, f"of nothing: {relationship}")
+    kinds = {relationship["relationshipType"] for relationship in bill["relationships"]}
+    expect(kinds == {"DESCRIBES", "DYNAMIC_LINK", "CONTAINS"}, f"the bill of materials has {kinds} alone")
+    for package in bill["packages"]:
+        expect(package["licenseDeclared"] != "NOASSERTION", f"{package['name']} has no licence in harness/packaging/packages.csv")
 
 
 def complete(program, words):
@@ -135,6 +150,7 @@ def main():
                        stdout=subprocess.DEVNULL)
         os.rename(first, prefix)
         check_files(prefix)
+        check_bill(prefix)
         installed = Installed(prefix, home)
         print("the source tree is hidden" if installed.hidden else "the source tree cannot be hidden here")
         check_commands(installed)
