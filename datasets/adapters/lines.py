@@ -3,6 +3,7 @@ import json
 import math
 import os
 import sys
+import time
 
 # Standard output is for answers; what a library prints goes to standard error.
 _answers = os.fdopen(os.dup(1), "w")
@@ -11,18 +12,26 @@ os.dup2(2, 1)
 
 def serve(hello, answer, mesh=None):
     """Writes the first line, and answers every question: answer(question) returns the keys of one, or None for
-    `unsupported`. mesh(line), if there is one, gets the meshes."""
+    `unsupported`. mesh(line), if there is one, gets the meshes. Where repeats are asked for, the answer has their time."""
 
     def say(line):
         _answers.write(json.dumps(line) + "\n")
         _answers.flush()
+
+    def timed(question):
+        if not question.get("repeat"):
+            return {}
+        start = time.perf_counter()
+        for _ in range(question["repeat"]):
+            answer(question)
+        return {"seconds": time.perf_counter() - start}
 
     sys.stdin.readline()  # what the program says of itself
     say({"protocol": 1, **hello})
     for line in sys.stdin:
         question = json.loads(line)
         if "id" in question:
-            say({"id": question["id"], **(answer(question) or {"status": "unsupported"})})
+            say({"id": question["id"], **(answer(question) or {"status": "unsupported"}), **timed(question)})
         elif mesh:
             mesh(question)
 
