@@ -3,7 +3,7 @@ import math
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+sys.path.append(str(pathlib.Path(__file__).parent.parent))
 from lines import serve  # noqa: E402 (it keeps what Open3D prints from the answers)
 import numpy  # noqa: E402
 import open3d  # noqa: E402

@@ -42,6 +42,7 @@ TEST(ListCommand, CsvHasOneRowForEachAlgorithm) {
       EXPECT_EQ(row[3], "false") << "no --with asks " << row[0];
       EXPECT_THAT(row[4], ::testing::AnyOf(StartsWith("not installed: npm ci --ignore-scripts "),
                                            StartsWith("not installed: apt-get install python3-"),
+                                           StartsWith("not installed: python3 -m venv "),
                                            "`--peer " + row[0] + "` asks it"));
       continue;
     }
