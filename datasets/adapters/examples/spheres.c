@@ -36,9 +36,9 @@ int main(void) {
     for (long i = 1; i < times; ++i) apart = hypot(hypot(d[0], d[1]), d[2]);
     const double took = seconds() - start;
     for (int i = 0; apart > 0 && i < 3; ++i) n[i] = d[i] / apart;
-    printf("{\"id\":\"%.16s\",\"status\":\"ok\",\"distance\":%.17g,", after(line, "\"id\":\""), apart - (ra + rb));
+    printf("{\"id\":\"%.16s\",\"status\":\"ok\",", after(line, "\"id\":\""));
     if (times > 0) printf("\"seconds\":%.9g,", took);
-    printf("\"normal\":[%.17g,%.17g,%.17g],", n[0], n[1], n[2]);
+    printf("\"distance\":%.17g,\"normal\":[%.17g,%.17g,%.17g],", apart - (ra + rb), n[0], n[1], n[2]);
     printf("\"a\":[%.17g,%.17g,%.17g],", a[0] + ra * n[0], a[1] + ra * n[1], a[2] + ra * n[2]);
     printf("\"b\":[%.17g,%.17g,%.17g]}\n", b[0] - rb * n[0], b[1] - rb * n[1], b[2] - rb * n[2]);
   }
