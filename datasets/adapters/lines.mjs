@@ -4,7 +4,7 @@ import { createInterface } from 'node:readline';
 console.log = console.error; // standard output is for answers
 
 // Writes the first line, and answers every question: answer(question) returns the keys of one, or null for `unsupported`.
-// mesh(line), if there is one, gets the meshes.
+// mesh(line), if there is one, gets the meshes. Where repeats are asked for, the answer has their time.
 export async function serve(hello, answer, mesh) {
   const say = (object) => process.stdout.write(JSON.stringify(object) + '\n');
   let first = true;
@@ -14,10 +14,17 @@ export async function serve(hello, answer, mesh) {
     } else {
       const question = JSON.parse(line);
       if (question.id === undefined) mesh?.(question);
-      else say({ id: question.id, ...(answer(question) ?? { status: 'unsupported' }) });
+      else say({ id: question.id, ...(answer(question) ?? { status: 'unsupported' }), ...timed(question, answer) });
     }
     first = false;
   }
+}
+
+function timed(question, answer) {
+  if (!question.repeat) return {};
+  const start = process.hrtime.bigint();
+  for (let i = 0; i < question.repeat; ++i) answer(question);
+  return { seconds: Number(process.hrtime.bigint() - start) * 1e-9 };
 }
 
 // Matrices are by rows.

@@ -26,6 +26,7 @@
 #include "harness/kinds/pair/pair_request.h"
 #include "harness/modules/modules.h"
 #include "harness/peer/peer.h"
+#include "harness/record/row.h"
 
 namespace touchstone::commands {
 namespace {
@@ -155,6 +156,8 @@ int run(const CheckOptions& options, check::CheckMode mode, const std::string& c
     return exit_done;
   }
   const check::CheckReport report = check::run_check(request);
+  const std::vector<peer::PeerRow> peer_rows = peer::peer_rows();
+  if (!peer_rows.empty()) record::write_rows(request.out / "peers.csv", peer_rows);
   if (report.interrupted) return end_interrupted();
   check::VersionReport versions;
   if (mode == check::CheckMode::cases) versions = check::compare_versions(request);

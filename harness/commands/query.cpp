@@ -204,6 +204,7 @@ void print_scalar_hint(const Questions& questions, Precision asked) {
 struct QueryOptions {
   std::string file, names = "all", task, kind, out, certificates;
   std::vector<std::string> peers;
+  std::int64_t repeat = 0;
   std::optional<double> time_limit;
   // The options of kinds by name, and whether the command line has them.
   std::map<std::string, std::string> texts;
@@ -274,7 +275,7 @@ kinds::QuestionInput input_of(const QueryOptions& options) {
   modules::load_named(options.names);
   kinds::QuestionInput input = {
       .file = options.file,
-      .names = kinds::split_names(joined_names(options.names, start_peers(options.peers))),
+      .names = kinds::split_names(joined_names(options.names, start_peers(options.peers, options.repeat))),
       .task = options.task,
       .time_limit = options.time_limit};
   for (const auto& [name, option] : options.of_kinds) {
@@ -386,6 +387,7 @@ int query(const QueryOptions& options) {
   const bool are_shown = !csv && questions->size() <= most_shown;
   if (!questions->print_summary(are_shown) && !are_shown) print_counts(*questions);
   print_scalar_hint(*questions, input.scalar());
+  fmt::print("{}", repeats_text());
   if (is_drawn) draw_pairs(*questions, input, page);
   if (!saved.empty()) save_proofs(saved, questions->proving(), input.seconds());
   return questions->is_wrong() ? exit_measured_wrong : exit_done;
@@ -444,7 +446,13 @@ void add_query(Arguments command) {
             "module, "
             "such as ./libmine.so")
       .show_default();
-  add_peer(command, options->peers);
+  const Option peer = add_peer(command, options->peers);
+  command
+      .number("--repeat", options->repeat,
+              "Also have each peer repeat a question so often, and show the times that it reports "
+              "itself")
+      .within(1, 1'000'000'000)
+      .needs(peer);
   command.text("--task", options->task, "What is asked (default: the kind's fullest)");
   command.text("--kind", options->kind,
                "The kind of the questions, where the file does not tell: " + kind_list);

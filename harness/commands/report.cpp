@@ -156,10 +156,18 @@ std::vector<report::ResultsRequest> results_requests(const ReportOptions& option
   return requests;
 }
 
+// Whether the folder, or one below it, has counts of versions.
+bool has_versions(const fs::path& folder) {
+  if (!fs::is_directory(folder)) return false;
+  return std::ranges::any_of(fs::recursive_directory_iterator(folder), [](const auto& entry) {
+    return files::row_file(entry.path().parent_path() / "versions.csv") == entry.path();
+  });
+}
+
 // Adds the folders of --versions to the results. Throws InputError for one without versions.
 void add_versions(ReportOptions& options) {
   for (const std::string& folder : options.versions) {
-    if (!fs::exists(files::row_file(fs::path(folder) / "versions.csv"))) {
+    if (!has_versions(folder)) {
       throw base::InputError(folder, 0,
                              "no versions.csv in it; expected a folder of `check --peer NAME@all`");
     }

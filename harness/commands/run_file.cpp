@@ -129,7 +129,8 @@ std::optional<int> run_file(const RunFileOptions& options) {
 }  // namespace
 
 void add_run_of_any(Arguments command) {
-  static constexpr WholeRun whole = {run_file, start_peers};
+  static constexpr WholeRun whole = {
+      run_file, [](const std::vector<std::string>& peers) { return start_peers(peers); }};
   add_run(command, whole);
 }
 

@@ -1,6 +1,7 @@
 // Options, results folders and choices of algorithms that several commands share.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -53,8 +54,11 @@ int end_interrupted();
 
 // Adds --peer, which may stand several times.
 Option add_peer(Arguments& command, std::vector<std::string>& peers);
-// Adds these peers to the registry. Returns the names of their entries, joined by commas.
-std::string start_peers(const std::vector<std::string>& peers);
+// Adds these peers to the registry, to be asked for so many repeats of each question if it is not 0. Returns the names of
+// their entries, joined by commas.
+std::string start_peers(const std::vector<std::string>& peers, std::int64_t repeat = 0);
+// The times that peers measured themselves; empty if no question was repeated.
+std::string repeats_text();
 // Returns both lists of names, joined by commas, without an empty one.
 std::string joined_names(const std::string& names, const std::string& further);
 

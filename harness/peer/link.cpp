@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 
 #include "algorithms/core/outcome.h"
 #include "harness/base/hash.h"
@@ -36,6 +37,26 @@ std::string id_of(std::string_view text) {
   return base::to_hex(hash.value());
 }
 
+std::pair<std::string, std::string> Link::packed_answer(
+    const Question&, std::string_view, const std::function<std::size_t(const std::string&)>&) {
+  throw std::logic_error("a link without packed bytes");
+}
+
+files::Json answer_with_id(const std::string& line, const std::string& id) {
+  files::Json answer = files::Json::parse(line, nullptr, false);
+  if (!answer.is_object()) {
+    throw process::Garbage(
+        fmt::format("found '{}'; expected a JSON object", base::shortened(line, 200)));
+  }
+  const auto found = answer.find("id");
+  if (found == answer.end() || *found != id) {
+    throw process::Garbage(
+        fmt::format("found the id {}; expected \"{}\", as answers come in the order of questions",
+                    found == answer.end() ? "of nothing" : base::shortened(found->dump(), 40), id));
+  }
+  return answer;
+}
+
 void ask(Link& link, std::string_view before, std::size_t count,
          const std::function<files::OrderedJson(std::size_t)>& question,
          const std::function<void(std::size_t, const files::JsonNode&)>& take) {
@@ -48,17 +69,7 @@ void ask(Link& link, std::string_view before, std::size_t count,
     }
     const std::vector<std::string> lines = link.answers(first == 0 ? before : "", questions);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const files::Json answer = files::Json::parse(lines[i], nullptr, false);
-      if (!answer.is_object()) {
-        throw process::Garbage(
-            fmt::format("found '{}'; expected a JSON object", base::shortened(lines[i], 200)));
-      }
-      const auto id = answer.find("id");
-      if (id == answer.end() || *id != questions[i].id) {
-        throw process::Garbage(fmt::format(
-            "found the id {}; expected \"{}\", as answers come in the order of questions",
-            id == answer.end() ? "of nothing" : base::shortened(id->dump(), 40), questions[i].id));
-      }
+      const files::Json answer = answer_with_id(lines[i], questions[i].id);
       static const std::string name = "answer";
       try {
         take(first + i, files::JsonNode(name, 0, answer));

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "algorithms/core/status.h"
@@ -29,6 +30,14 @@ class Link {
   // the mesh that the questions are about.
   virtual std::vector<std::string> answers(std::string_view before,
                                            std::span<const Question> questions) = 0;
+
+  // Whether questions may have packed bytes behind their line, and answers too.
+  virtual bool takes_packed() const { return false; }
+  // Sends a question and its bytes. Returns the line of the answer, and the bytes behind it, whose number `size_of` gives
+  // for the line.
+  virtual std::pair<std::string, std::string> packed_answer(
+      const Question& question, std::string_view bytes,
+      const std::function<std::size_t(const std::string& line)>& size_of);
 };
 
 // The id of a text: 16 hexadecimal digits.
@@ -39,6 +48,9 @@ std::string id_of(std::string_view text);
 void ask(Link& link, std::string_view before, std::size_t count,
          const std::function<files::OrderedJson(std::size_t)>& question,
          const std::function<void(std::size_t, const files::JsonNode&)>& take);
+
+// Throws process::Garbage for a line that is no object with this id.
+files::Json answer_with_id(const std::string& line, const std::string& id);
 
 // --- values of answers; what is missing or null is not known, as may be parts of a vector, since JavaScript writes NaN
 // as null. All throw base::InputError. ---

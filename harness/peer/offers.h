@@ -69,5 +69,8 @@ void add_ray(const AlgorithmInfo& info, const files::JsonNode& offer,
              const std::shared_ptr<Link>& link);
 void add_point(const AlgorithmInfo& info, const files::JsonNode& offer,
                const std::shared_ptr<Link>& link);
+// Frames of boxes go packed, so nothing is added for a link that takes none.
+void add_box(const AlgorithmInfo& info, const files::JsonNode& offer,
+             const std::shared_ptr<Link>& link);
 
 }  // namespace touchstone::peer

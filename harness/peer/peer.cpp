@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "algorithms/registry.h"
@@ -33,21 +35,45 @@ constexpr double start_seconds = 60;
 // A program, which each process starts for itself when it first asks.
 class ProgramLink final : public Link {
  public:
-  explicit ProgramLink(Program program) : program_(std::move(program)) {}
+  ProgramLink(Program program, std::shared_ptr<Use> use)
+      : program_(std::move(program)), use_(std::move(use)) {}
 
   std::vector<std::string> answers(std::string_view before,
                                    std::span<const Question> questions) override {
+    std::string text(before);
+    for (const Question& question : questions) text += line_of(question);
+    return asked([&](PeerProcess& process) {
+      std::vector<std::string> lines = process.exchange(text, questions.size());
+      if (use_->repeat() > 0) std::ranges::for_each(lines, [&](auto& line) { keep_time(line); });
+      return lines;
+    });
+  }
+
+  bool takes_packed() const override { return true; }
+  std::pair<std::string, std::string> packed_answer(
+      const Question& question, std::string_view bytes,
+      const std::function<std::size_t(const std::string&)>& size_of) override {
+    std::string text = question.line;
+    text += bytes;
+    return asked([&](PeerProcess& process) {
+      std::string line = process.exchange(text, 1).front();
+      std::string packed = process.bytes(size_of(line));
+      return std::pair(std::move(line), std::move(packed));
+    });
+  }
+
+ private:
+  template <class Ask>
+  std::invoke_result_t<const Ask&, PeerProcess&> asked(const Ask& ask) {
     const bool is_new = owner_ != getpid();
     if (is_new) {
       static_cast<void>(process_.release());  // it is the parent's
-      process_ = std::make_unique<PeerProcess>(program_);
+      process_ = std::make_unique<PeerProcess>(program_, ProgramLimits{.use = use_.get()});
       owner_ = getpid();
     }
-    std::string text(before);
-    for (const Question& question : questions) text += question.line;
     try {
       if (is_new) process_->exchange(greeting(), 1);
-      return process_->exchange(text, questions.size());
+      return ask(*process_);
     } catch (...) {
       owner_ = -1;  // the next question gets a new program
       process_.reset();
@@ -55,8 +81,31 @@ class ProgramLink final : public Link {
     }
   }
 
- private:
+  // How often it is to be repeated is no part of a question, so its id is the same.
+  std::string line_of(const Question& question) const {
+    if (use_->repeat() == 0) return question.line;
+    std::string line = question.line;
+    return line.insert(line.find(',') + 1, fmt::format("\"repeat\":{},", use_->repeat()));
+  }
+
+  void keep_time(const std::string& line) const {
+    const files::Json answer = files::Json::parse(line, nullptr, false);
+    if (!answer.is_object()) return;  // who asks says what is wrong
+    static const std::string name = "answer";
+    try {
+      const double seconds = known_number(files::JsonNode(name, 0, answer), "seconds");
+      if (std::isnan(seconds)) return;
+      if (!(seconds >= 0 && std::isfinite(seconds))) {
+        throw process::Garbage(fmt::format("seconds: found {}; expected a time", seconds));
+      }
+      use_->add_seconds(seconds / static_cast<double>(use_->repeat()));
+    } catch (const base::InputError& error) {
+      throw process::Garbage(error.what());
+    }
+  }
+
   Program program_;
+  std::shared_ptr<Use> use_;
   std::unique_ptr<PeerProcess> process_;
   pid_t owner_ = -1;
 };
@@ -151,8 +200,11 @@ namespace {
 // --- the first line ---
 
 using Add = void (*)(const AlgorithmInfo&, const files::JsonNode&, const std::shared_ptr<Link>&);
-constexpr auto kinds = std::to_array<std::pair<std::string_view, Add>>(
-    {{"pair", add_pair}, {"cast", add_cast}, {"ray", add_ray}, {"point", add_point}});
+constexpr auto kinds = std::to_array<std::pair<std::string_view, Add>>({{"pair", add_pair},
+                                                                        {"cast", add_cast},
+                                                                        {"ray", add_ray},
+                                                                        {"point", add_point},
+                                                                        {"box", add_box}});
 
 constexpr std::string_view of_versions =
     "0123456789.+_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-";
@@ -208,7 +260,7 @@ std::string add_entries(const std::string& source, std::int64_t line, const file
   for (const auto& [name, offer] : offers.value().items()) {
     const auto* const at = std::ranges::find(kinds, name, &std::pair<std::string_view, Add>::first);
     if (at == kinds.end()) {
-      offers.fail(fmt::format("found \"{}\"; expected some of pair, cast, ray, point", name));
+      offers.fail(fmt::format("found \"{}\"; expected some of pair, cast, ray, point, box", name));
     }
     const files::JsonNode node = offers.at(name.c_str(), "");
     at->second(info, node.as_object("an object, such as {\"tasks\":[...]}"), link);
@@ -232,7 +284,8 @@ files::OrderedJson all_offers() {
             {"rotation", true},
             {"approach", true}}},
           {"ray", {{"tasks", {"closest", "any"}}, {"scalars", scalars}}},
-          {"point", {{"tasks", {"closest", "side"}}, {"scalars", {"double"}}}}};
+          {"point", {{"tasks", {"closest", "side"}}, {"scalars", {"double"}}}},
+          {"box", {{"tasks", {"pairs"}}}}};
 }
 
 files::OrderedJson hello_of_this(std::string_view name) {
@@ -242,15 +295,28 @@ files::OrderedJson hello_of_this(std::string_view name) {
           {"kinds", all_offers()}};
 }
 
+// The programs, by the names of their entries.
+std::vector<std::pair<std::string, std::shared_ptr<Use>>>& added() {
+  static std::vector<std::pair<std::string, std::shared_ptr<Use>>> all;
+  return all;
+}
+
 }  // namespace
 
 std::string greeting() { return hello_of_this("touchstone").dump() + "\n"; }
 
-std::string add(const std::string& named) {
+std::vector<PeerRow> peer_rows() {
+  std::vector<PeerRow> rows;
+  for (const auto& [name, use] : added()) rows.push_back(use->row(name));
+  return rows;
+}
+
+std::string add(const std::string& named, std::int64_t repeat) {
   const Program program = program_of(named);
+  const auto use = std::make_shared<Use>(repeat);
   std::string line;
   try {
-    PeerProcess process(program);
+    PeerProcess process(program, {.use = use.get()});
     line = process.exchange(greeting(), 1, start_seconds).front();
   } catch (const std::exception& error) {
     throw base::InputError(fmt::format("--peer '{}': {}; expected its first line of JSON",
@@ -261,8 +327,10 @@ std::string add(const std::string& named) {
     throw base::InputError(fmt::format("--peer '{}': found '{}'; expected a first line of JSON",
                                        program.command, base::shortened(line, 200)));
   }
-  return add_entries(fmt::format("--peer '{}'", program.command), 0, hello,
-                     std::make_shared<ProgramLink>(program));
+  const std::string name = add_entries(fmt::format("--peer '{}'", program.command), 0, hello,
+                                       std::make_shared<ProgramLink>(program, use));
+  added().emplace_back(name, use);
+  return name;
 }
 
 std::string add_answers(const std::filesystem::path& file) {

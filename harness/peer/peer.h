@@ -7,6 +7,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "harness/peer/use.h"
 
 namespace touchstone::peer {
 
@@ -15,10 +18,14 @@ inline constexpr int protocol_version = 1;
 // The first line of this program to a peer, with the line break.
 std::string greeting();
 
+// A row for each program that was added.
+std::vector<PeerRow> peer_rows();
+
 // Starts what is named, which is an adapter, NAME or NAME@VERSION, or its folder, or a command for the shell; reads its
 // first line, ends it, and adds it to the registry for each kind that it offers. Returns the name of its entries. Each
-// child process that asks it starts it anew. Throws base::InputError where it cannot be asked.
-std::string add(const std::string& named);
+// child process that asks it starts it anew. If `repeat` is not 0, each question but those of boxes asks for so many
+// repeats. Throws base::InputError where it cannot be asked.
+std::string add(const std::string& named, std::int64_t repeat = 0);
 
 // Adds the peer that wrote this file of answers. A question that is not in it is `unsupported`. Throws base::InputError
 // with the line.

@@ -141,15 +141,12 @@ void end_all(pid_t group) {
 }
 
 // Waits until the program ends, or has to.
-Report watch(pid_t program, int life, std::size_t memory) {
+Report watch(pid_t program, int life, const ProgramLimits& limits) {
   Report report;
   for (;;) {
     if (waitpid(program, &report.status, WNOHANG) == program) return report;
     pollfd waiting{.fd = life, .events = POLLIN, .revents = 0};
-    if (poll(&waiting, 1, tick_milliseconds) > 0) {
-      report.ended = Ended::asked;
-      return report;
-    }
+    if (poll(&waiting, 1, tick_milliseconds) > 0) report.ended = Ended::asked;
     const std::vector<pid_t> processes = all_below(getpid());
     for (const pid_t child : children_of(getpid())) {
       if (child != program)
@@ -157,14 +154,16 @@ Report watch(pid_t program, int life, std::size_t memory) {
     }
     std::size_t used = 0;
     for (const pid_t process : processes) used += memory_of(process);
-    if (used > memory) report.ended = Ended::memory;
+    if (limits.use != nullptr) limits.use->add_memory(used);
+    if (report.ended == Ended::asked) return report;
+    if (used > limits.memory) report.ended = Ended::memory;
     if (processes.size() > most_processes) report.ended = Ended::processes;
     if (report.ended != Ended::by_itself) return report;
   }
 }
 
 [[noreturn]] void run_watcher(const Program& program, int input, int output, int life, int answer,
-                              std::size_t memory) {
+                              const ProgramLimits& limits) {
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_IGN);
   std::signal(SIGCHLD, [](int) {});  // it ends the wait of poll()
   prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -174,7 +173,7 @@ Report watch(pid_t program, int life, std::size_t memory) {
   if (child < 0) _exit(EXIT_FAILURE);
   setpgid(child, child);
   keep_open(life, answer);
-  const Report report = watch(child, life, memory);
+  const Report report = watch(child, life, limits);
   end_all(child);
   // If nobody reads it, nobody asked.
   if (write(answer, &report, sizeof report) != sizeof report) _exit(EXIT_FAILURE);
@@ -213,11 +212,12 @@ std::string words_of(const Report& report, const ProgramLimits& limits) {
 
 PeerProcess::PeerProcess(const Program& program, const ProgramLimits& limits) : limits_(limits) {
   Pipe input, output, life, report;
+  if (limits.use != nullptr) limits.use->add_start();
   const pid_t watcher = fork();
   if (watcher < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (watcher == 0) {
     close(std::exchange(life.to, -1));
-    run_watcher(program, input.from, output.to, life.from, report.to, limits.memory);
+    run_watcher(program, input.from, output.to, life.from, report.to, limits);
   }
   watcher_ = watcher;
   input_ = std::exchange(input.to, -1);
@@ -305,6 +305,18 @@ std::vector<std::string> PeerProcess::exchange(std::string_view text, std::size_
       if (lines.size() < count) throw_ended();
     }
   }
+}
+
+std::string PeerProcess::bytes(std::size_t count) {
+  while (buffer_.size() < count) {
+    pollfd waiting{.fd = output_, .events = POLLIN, .revents = 0};
+    poll(&waiting, 1, -1);
+    if (waiting.revents != 0 && !read_some()) throw_ended();
+  }
+  std::string taken = buffer_.substr(0, count);
+  buffer_.erase(0, count);
+  searched_ = 0;
+  return taken;
 }
 
 }  // namespace touchstone::peer

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/peer/use.h"
+
 namespace touchstone::peer {
 
 // The program ended, or was ended; the text says how.
@@ -28,6 +30,7 @@ struct Program {
 struct ProgramLimits {
   std::size_t memory = std::size_t{4} << 30;  // bytes of all its processes
   std::size_t line = std::size_t{1} << 20;    // bytes of an answer
+  Use* use = nullptr;                         // where its start and its memory are counted
 };
 
 class PeerProcess {
@@ -46,6 +49,8 @@ class PeerProcess {
   // long.
   std::vector<std::string> exchange(std::string_view text, std::size_t count,
                                     double seconds = no_limit);
+  // Returns the next `count` bytes behind the lines that were read. Throws ProgramEnded if there will not be so many.
+  std::string bytes(std::size_t count);
 
  private:
   void take_lines(std::vector<std::string>& lines, std::size_t count);

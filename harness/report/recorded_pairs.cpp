@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/base/error.h"
+#include "harness/files/packed_files.h"
 #include "harness/kinds/pair/reproducer/reproducer.h"
 #include "harness/report/body_view.h"
 #include "harness/report/case_view.h"
@@ -64,7 +65,7 @@ OrderedJson answer_of(const JsonNode& answer) {
 // The test of an algorithm that has such a form; empty if it has none, or not for this pair.
 std::string test_of(const std::string& algorithm, const files::Case& c, const std::string& task,
                     const std::string& file) {
-  if (!kinds::has_reproducer(algorithm)) return "";
+  if (file.empty()) return "";
   for (const Task one :
        {Task::intersect, Task::distance, Task::penetration, Task::signed_distance}) {
     if (to_string(one) != task) continue;
@@ -86,7 +87,7 @@ OrderedJson recorded_of(const JsonNode& line, const files::Case& c) {
     const OrderedJson& answer = answers.back();
     if (answer["grade"] != "silent") continue;
     const std::string algorithm = answer["algorithm"], task = answer["task"];
-    const std::string file = fmt::format("{}_test.cpp", algorithm);
+    const std::string file = kinds::reproducer_file(algorithm);
     std::string text = test_of(algorithm, c, task, file);
     if (text.empty()) continue;
     tests.push_back({{"algorithm", algorithm}, {"file", file}, {"text", std::move(text)}});
@@ -99,7 +100,7 @@ OrderedJson recorded_of(const JsonNode& line, const files::Case& c) {
 }  // namespace
 
 OrderedJson recorded_pair_views(const std::filesystem::path& folder, double time_limit) {
-  const std::filesystem::path file = folder / file_name;
+  const std::filesystem::path file = files::row_file(folder / file_name);
   if (!std::filesystem::exists(file)) return OrderedJson::array();
   const std::vector<files::Case> cases = files::read_cases(file);
   std::vector<OrderedJson> recorded;
@@ -107,7 +108,7 @@ OrderedJson recorded_pair_views(const std::filesystem::path& folder, double time
     recorded.push_back(recorded_of(line, cases[recorded.size()]));
   });
   std::vector<ListedCase> listed;
-  for (const files::Case& c : cases) listed.push_back({.c = c, .file = file_name, .about = c.id});
+  for (const files::Case& c : cases) listed.push_back({.c = c, .file = file.filename().string(), .about = c.id});
   OrderedJson views = case_views(listed, folder, time_limit);
   for (std::size_t i = 0; i < recorded.size(); ++i) views[i]["recorded"] = std::move(recorded[i]);
   return views;

@@ -1,10 +1,11 @@
-// Rapier: contactShape of two shapes, which is parry's contact query. The argument is the version.
+// Rapier: contactShape of two shapes, which is parry's contact query. The arguments are the version, and the name of the
+// build where it is not the usual one: rapier-simd or rapier-deterministic.
 import { plus, quaternionOf, rotated, serve, times, unit } from '../lines.mjs';
 
-const version = process.argv[2];
+const [version, name = 'rapier'] = process.argv.slice(2);
 // Some versions name a file as their main one that Node.js takes for another kind of module.
-const loaded = await import('rapier-' + version)
-  .catch(() => import(`./node_modules/rapier-${version}/rapier.es.js`));
+const loaded = await import(`${name}-${version}`)
+  .catch(() => import(`./node_modules/${name}-${version}/rapier.es.js`));
 const rapier = loaded.default?.init ? loaded.default : loaded;
 await rapier.init();
 
@@ -57,7 +58,7 @@ function answer({ a, b }) {
 }
 
 serve({
-  name: 'rapier', version, library: `Rapier ${version}, contactShape, WebAssembly`,
+  name, version, library: `Rapier ${version}, contactShape, WebAssembly, ${name}`,
   kinds: {
     pair: {
       tasks: ['intersect', 'distance', 'penetration', 'signed'], scalars: ['float'], encoding: 'quaternion_float32',

@@ -109,7 +109,12 @@ class BoxQuestions final : public Questions {
     csv.field(frames_[i].number).field(info(contestant).name).field(options_.threads);
     csv.field(to_string(result.status));
     if (result.known) {
-      csv.field(result.pairs).field(base::to_hex(result.hash)).field(result.seconds);
+      csv.field(result.pairs).field(base::to_hex(result.hash));
+      if (touchstone::is_timed(info(contestant))) {
+        csv.field(result.seconds);
+      } else {
+        csv.field("");
+      }
     } else {
       csv.field("").field("").field("");
     }
@@ -129,8 +134,10 @@ class BoxQuestions final : public Questions {
     const FrameResult& result = contenders_[contestant]->result(i);
     ShownAnswer shown = {.verdict = {}, .status = result.status};
     if (!result.known) return shown;
-    shown.more = fmt::format("{} pairs, hash {}, {:.3g} ms", result.pairs,
-                             base::to_hex(result.hash), 1e3 * result.seconds);
+    shown.more = fmt::format("{} pairs, hash {}", result.pairs, base::to_hex(result.hash));
+    if (touchstone::is_timed(info(contestant))) {
+      shown.more += fmt::format(", {:.3g} ms", 1e3 * result.seconds);
+    }
     return shown;
   }
   std::vector<std::string_view> verdicts() const override { return {}; }
@@ -192,8 +199,9 @@ class BoxQuestions final : public Questions {
         seconds += result.seconds;
         differing += result.known && first.known && result.hash != first.hash ? 1 : 0;
       }
-      fmt::print("{:<28} {:>7} {:>12} {:>12.6f}  {}\n", contender->info().name, done, pairs,
-                 seconds, differing);
+      const bool has_time = touchstone::is_timed(contender->info());
+      fmt::print("{:<28} {:>7} {:>12} {:>12}  {}\n", contender->info().name, done, pairs,
+                 has_time ? fmt::format("{:.6f}", seconds) : "-", differing);
     }
   }
 

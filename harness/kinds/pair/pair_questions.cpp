@@ -126,9 +126,8 @@ class PairQuestions final : public AnswersOf<NarrowPhaseEntry, PairAnswer> {
       ++count;
     }
     if (count == 1) return library;
-    throw base::InputError(
-        fmt::format("--as-test was given with {} libraries; expected --with one of {}", count,
-                    names_with_reproducers()));
+    throw base::InputError(fmt::format("--as-test was given with {} libraries; expected one of {}",
+                                       count, names_with_reproducers()));
   }
 
   static Outcome outcome_of(const PairAnswer& given) {
@@ -195,8 +194,8 @@ std::vector<QueryOption> pair_options() {
        option::max_iterations,
        option::saved,
        {"--as-test", Value::text,
-        "Also write the pairs as a test of the library of --with, in its own language, such as "
-        "reproducer.cpp"}});
+        "Also write the pairs as a test of the library of --with or --peer, in its own language, "
+        "such as reproducer.cpp"}});
 }
 
 std::unique_ptr<Questions> read_pair_questions(const QuestionInput& input) {

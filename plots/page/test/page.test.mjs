@@ -562,7 +562,9 @@ test("narrow, dark and printed", async () => {
 
 test("a cell of the versions opens its pairs, with proof and test", async () => {
   const answer = (algorithm, grade, why) => ({ ...pair.answers[0], algorithm, scalar: "double", task: "signed", grade, why });
-  const recorded = (id, group, tests, ...answers) => ({ ...pair, id, answers: [], recorded: { group, answers, tests } });
+  const recorded = (id, group, tests, ...answers) => ({
+    ...pair, id, source: "wrong_pairs.jsonl", answers: [], recorded: { group, answers, tests },
+  });
   const results = folder_of(
     "versions",
     {

@@ -15,7 +15,7 @@ async function open_pair(page) {
   await pair.getByText("show the gap").click();
 }
 
-const open_version = (page) => page.locator('#wrong-by-version button[aria-label^="mujoco 3.9.0"]').click();
+const open_version = (page) => page.locator('#wrong-by-version button[aria-label^="mujoco 3.9.0, random:"]').click();
 
 const choose_axis = (page, axis) => page.locator("#stress-breaks select").first().selectOption({ label: axis });
 
@@ -34,7 +34,8 @@ async function play_two(page) {
 // A view is an element of the page, or its upper part, after what a reader does to see it.
 const views = [
   { name: "first_screen", element: "#fastest", height: 860, width: 1240 },
-  { name: "versions", element: "#wrong-by-version", height: 1560, act: open_version },
+  { name: "versions", element: "#wrong-by-version", height: 1090 },
+  { name: "versions_pair", element: "#wrong-by-version .chosen", height: 820, act: open_version },
   { name: "curves", element: "#reference-curves .panels" },
   { name: "winners", element: "#reference-fastest", height: 560 },
   { name: "phases", element: "#reference-phases figure" },

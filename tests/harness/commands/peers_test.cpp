@@ -93,6 +93,29 @@ TEST_F(Peers, ExamplesAreRight) {
   EXPECT_EQ(answers["spheres-in-python@1.0"], answers["spheres-in-c@1.0"]);
 }
 
+TEST_F(Peers, SayWhatTheyTook) {
+  ASSERT_EQ(run_shell("cc -O2 -o " + path("spheres") + " " + example("spheres.c") + " -lm").status,
+            0);
+  const std::string query = "query " + pairs() + " --with exact --task distance --peer " +
+                            path("spheres") + " " + python() + " --repeat 1000";
+  ran = run_program(query);
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("They belong in no table with times that are measured here."));
+  EXPECT_THAT(ran.text, ::testing::ContainsRegex("spheres-in-c@1.0 +1000 +3 +[0-9.e-]+ us"));
+  EXPECT_THAT(ran.text, ::testing::ContainsRegex("spheres-in-python@1.0 +1000 +0 +-"))
+      << "it knows no repeats";
+  EXPECT_THAT(ran.text, HasSubstr("spheres-in-c@1.0             3 (exact)"));
+  ran = run_program("check --groups gap --cases 5 " + python() + " --out " + path("out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  for (const auto& row :
+       read_rows(path("out/peers.csv"), {"peer", "starts", "peak_memory", "repeat"})) {
+    EXPECT_EQ(row[0] + row[3], "spheres-in-python@1.00");
+    EXPECT_GT(std::stoi(row[1]), 1);
+    EXPECT_GT(std::stod(row[2]), 1e6);
+  }
+  expect_refusal("query " + pairs() + " --repeat 5", "--repeat requires --peer", folder);
+}
+
 TEST_F(Peers, AWrongSignIsASilentError) {
   ran = run_program("check --groups gap,depth --cases 100 " + hostile("wrong-sign") + " --out " +
                     path("out"));
@@ -121,6 +144,25 @@ TEST_F(Peers, FaultsBecomeRowsAndTheWorkGoesOn) {
   // The line too many is found by the question behind it.
   EXPECT_THAT(statuses("extra-line"), ElementsAre("ok", "ok", "garbage"));
   EXPECT_THAT(statuses("fork-bomb"), ElementsAre("ok", "ok", "ok"));
+}
+
+TEST_F(Peers, ACrashAtTheThousandthQuestionLosesThatOne) {
+  std::string text;
+  for (int i = 0; i < 1100; ++i) {
+    text += R"({"a":{"shape":{"type":"sphere","radius":1}},"b":{"shape":{"type":"sphere",)"
+            R"("radius":1},"translation":[3,0,0]}})"
+            "\n";
+  }
+  files::write_text(path("many.jsonl"), text);
+  ran = run_program("query " + path("many.jsonl") +
+                    " --task distance --with none --peer 'python3 " + std::string(project_folder) +
+                    "/tests/harness/peer/hostile.py signal 999' --out " + path("out.csv"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  const auto rows = read_rows(path("out.csv"), {"status"});
+  ASSERT_EQ(rows.size(), 1100U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i][0], i == 999 ? "crashed" : "ok") << i;
+  }
 }
 
 TEST_F(Peers, AnswerRaysPointsAndCasts) {
@@ -153,6 +195,75 @@ TEST_F(Peers, AnswerRaysPointsAndCasts) {
   EXPECT_GT(right["casts-pass-1e-1"], 0) << "of spheres";
   EXPECT_EQ(others["casts-pass-1e-1"], 0);
   EXPECT_GT(others["rays-vertex"] + others["rays-in-plane"], 0) << "rounding decides there";
+}
+
+TEST_F(Peers, FindThePairsOfPackedBoxes) {
+  const std::string boxes = "--peer 'python3 " + example("boxes.py") + "'";
+  ran = run_program("check --kind box --with none " + boxes + " --out " + path("out"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("1 of 1 broad phases find all pairs"));
+  // Three boxes that touch in a row, in two frames.
+  files::write_text(path("boxes.csv"),
+                    "frame,id,min_x,min_y,min_z,max_x,max_y,max_z\n"
+                    "0,0,0,0,0,1,1,1\n0,1,1,0,0,2,1,1\n0,2,2,0,0,3,1,1\n"
+                    "1,0,0,0,0,1,1,1\n1,1,1,0,0,2,1,1\n1,2,2.5,0,0,3,1,1\n");
+  const auto statuses_of = [&](const std::string& peer, const std::string& limit) {
+    ran = run_program("query " + path("boxes.csv") + " --with none --time-limit " + limit + " " +
+                      peer + " --out " + path("out.csv"));
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    std::vector<std::string> all;
+    for (const auto& row : read_rows(path("out.csv"), {"status", "pair_count", "seconds"})) {
+      EXPECT_EQ(row[2], "") << "its time has the pipe in it";
+      all.push_back(row[0] + " " + row[1]);
+    }
+    return all;
+  };
+  EXPECT_THAT(statuses_of(boxes, "20"), ElementsAre("ok 2", "ok 1"));
+  const auto with = [&](const std::string& fault, const std::string& limit = "20") {
+    return statuses_of("--peer 'python3 " + std::string(project_folder) +
+                           "/tests/harness/peer/hostile_boxes.py " + fault + " 1'",
+                       limit);
+  };
+  for (const char* fault :
+       {"swapped", "absent-box", "too-many", "fraction", "wrong-id", "no-json", "endless"}) {
+    SCOPED_TRACE(fault);
+    EXPECT_THAT(with(fault), ElementsAre("ok 2", "garbage "));
+  }
+  EXPECT_THAT(with("exit"), ElementsAre("ok 2", "crashed "));
+  EXPECT_THAT(with("short"), ElementsAre("ok 2", "crashed "));
+  EXPECT_THAT(with("hang", "5"), ElementsAre("ok 2", "timed_out "));
+  EXPECT_THAT(with("missing"), ElementsAre("ok 2", "ok 0"));
+  EXPECT_THAT(with("unsupported"), ElementsAre("ok 2", ::testing::StartsWith("unsupported")));
+  ran = run_program("check --kind box --with none --peer 'python3 " + std::string(project_folder) +
+                    "/tests/harness/peer/hostile_boxes.py missing 3' --out " + path("wrong"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(ran.text, HasSubstr("hostile-missing is wrong on: "));
+}
+
+TEST_F(Peers, AdaptersInPythonAnswerThroughStandIns) {
+  const std::string root = project_folder;
+  if (run_shell("/usr/bin/python3 -c 'import numpy'").status != 0) {
+    GTEST_SKIP() << "no numpy (Debian: python3-numpy)";
+  }
+  files::write_text(path("spheres.jsonl"),
+                    R"({"a":{"shape":{"type":"sphere","radius":1}},)"
+                    R"("b":{"shape":{"type":"sphere","radius":2},"translation":[0,4,3]}})"
+                    "\n"
+                    R"({"a":{"shape":{"type":"sphere","radius":1},"translation":[1,0,0]},)"
+                    R"("b":{"shape":{"type":"sphere","radius":2},"translation":[1,0,2.5]}})"
+                    "\n");
+  for (const std::string name : {"coal", "python-fcl", "mujoco-python", "drake", "pybullet"}) {
+    SCOPED_TRACE(name);
+    ran = run_program("query " + path("spheres.jsonl") +
+                      " --with exact --task signed --peer 'PYTHONPATH=" + root +
+                      "/tests/harness/peer/stand_ins /usr/bin/python3 -B " + root +
+                      "/datasets/adapters/" + name + "/peer.py 1.0' --out " + path("out.csv"));
+    EXPECT_EQ(ran.status, 0) << ran.text;
+    const auto rows = read_rows(path("out.csv"), {"algorithm", "answer", "distance"});
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_THAT(rows[1], ElementsAre(name + "@1.0", "separated", "2"));
+    EXPECT_THAT(rows[3], ElementsAre(name + "@1.0", "overlapping", "-0.5"));
+  }
 }
 
 TEST_F(Peers, ARunGradesThemWithoutTimes) {

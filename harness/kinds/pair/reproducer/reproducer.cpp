@@ -13,10 +13,12 @@
 #include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/names.h"
+#include "harness/files/case_json.h"
 #include "harness/files/json_line.h"
 #include "harness/grade/margins.h"
 #include "harness/grade/true_case.h"
 #include "harness/kinds/pair/reproducer/library_tests.h"
+#include "harness/kinds/pair/reproducer/script_tests.h"
 
 namespace touchstone::kinds {
 namespace {
@@ -95,25 +97,24 @@ ExpectedAnswer expected_of(const oracle::Measure& truth, const files::Case& c, T
   return expected;
 }
 
-// Why the answer is known, for the reader.
-std::string reason_text(const oracle::Measure& truth, const ExpectedAnswer& expected) {
+// Why the answer is known, for the reader: lines behind this mark of a comment.
+std::string reason_text(const oracle::Measure& truth, int side, std::string_view mark) {
   const std::string normal = numbers_text(Vec3d(truth.normal.normalized()));
   const std::string bounds = truth.lower == truth.upper
                                  ? fmt::format("{}", truth.lower)
                                  : fmt::format("{} to {}", truth.lower, truth.upper);
-  if (expected.side > 0) {
-    return fmt::format(
-        "  // Separated: a plane across ({}) parts them. The exact distance is {} m.\n", normal,
-        bounds);
+  if (side > 0) {
+    return fmt::format("{}Separated: a plane across ({}) parts them. The exact distance is {} m.\n",
+                       mark, normal, bounds);
   }
-  if (expected.side < 0) {
+  if (side < 0) {
     return fmt::format(
-        "  // Overlapping: no translation shorter than the depth separates them; the one along\n"
-        "  // ({}) does. The exact signed distance is {} m.\n",
-        normal, bounds);
+        "{0}Overlapping: no translation shorter than the depth separates them; the one along\n"
+        "{0}({1}) does. The exact signed distance is {2} m.\n",
+        mark, normal, bounds);
   }
-  return fmt::format(
-      "  // The exact signed distance is {} m: either side of contact is accepted.\n", bounds);
+  return fmt::format("{}The exact signed distance is {} m: either side of contact is accepted.\n",
+                     mark, bounds);
 }
 
 constexpr std::string_view rest_of_program = R"test(
@@ -189,21 +190,128 @@ std::string head_of(const LibraryTest& test, const NarrowPhaseEntry& library,
   return text;
 }
 
+// --- Python and JavaScript ---
+
+// The library of an algorithm such as "mujoco@3.10.0"; empty if it has no version.
+std::string_view library_of(std::string_view algorithm) {
+  const std::size_t at = algorithm.find('@');
+  return at == std::string_view::npos ? "" : algorithm.substr(0, at);
+}
+
+// The tests of a library, one for each language.
+std::vector<const ScriptTest*> scripts_of(std::string_view algorithm) {
+  std::vector<const ScriptTest*> found;
+  for (const ScriptTest& test : script_tests()) {
+    if (test.library == library_of(algorithm)) found.push_back(&test);
+  }
+  return found;
+}
+
+const ScriptTest& script_of(std::string_view algorithm, std::string_view version,
+                            const std::filesystem::path& file) {
+  std::vector<std::string_view> extensions;
+  for (const ScriptTest* test : scripts_of(algorithm)) {
+    if (test->lacks == version) continue;
+    if (file.extension() == test->extension) return *test;
+    extensions.push_back(test->extension);
+  }
+  throw base::InputError(fmt::format("'{}': a test of {} is no such file; expected one of {}",
+                                     file.string(), algorithm, fmt::join(extensions, ", ")));
+}
+
+// A case as an object of both languages, behind what is exact of it.
+std::string script_case(const ScriptTest& test, const files::Case& c, Task task,
+                        oracle::Oracle& oracle) {
+  const grade::EncodedPair pair(c, Encoding::as_given);
+  const oracle::Measure truth = oracle.measure(pair.a(), pair.b());
+  const double tolerance = script_error * grade::pair_size(c);
+  const double number = truth.middle();
+  const int side = number > tolerance ? 1 : number < -tolerance ? -1 : 0;
+  const files::OrderedJson object = {{"id", c.id},
+                                     {"a", files::body_to_json(c.shape_a, c.pose_a)},
+                                     {"b", files::body_to_json(c.shape_b, c.pose_b)},
+                                     {"side", side},
+                                     {"number", number},
+                                     {"tolerance", tolerance},
+                                     {"has_distance", asks_distance(task) ? 1 : 0},
+                                     {"has_depth", asks_depth(task) ? 1 : 0}};
+  return reason_text(truth, side, test.is_python() ? "    # " : "  // ") +
+         (test.is_python() ? "    " : "  ") + object.dump() + ",\n";
+}
+
+std::string script_reproducer(std::string_view algorithm, std::span<const files::Case> cases,
+                              Task task, const std::filesystem::path& file) {
+  const std::string_view version = algorithm.substr(library_of(algorithm).size() + 1);
+  const ScriptTest& test = script_of(algorithm, version, file);
+  const std::string_view mark = test.is_python() ? "#" : "//";
+  const std::string name = base::shell_word(file.filename().string());
+  std::string text = fmt::format(
+      "{0} Pairs of convex bodies whose answers are known exactly, asked of {1} {2}, {3}.\n"
+      "{0} Made by Touchstone. It fails where the answer is on the wrong side of contact, or a "
+      "number is off,\n"
+      "{0} by more than {4:g} of the pair's size. Lengths are metres{5}.\n"
+      "{0}\n"
+      "{0}     {6}\n",
+      mark, test.package, version, test.function, script_error,
+      test.in_float ? "; all numbers are floats" : "",
+      test.is_python()
+          ? fmt::format("pip install {}=={} && python3 {}", test.package, version, name)
+          : fmt::format("npm install {}@{} && node {}", test.package, version, name));
+  text += test.head;
+  base::replace_all(text, "PACKAGE", test.package);
+  text += test.is_python() ? "\n\ncases = [\n" : "\nconst cases = [\n";
+  oracle::Oracle oracle;
+  bool has_case = false;
+  std::string left_out;
+  for (const files::Case& given : cases) {
+    const files::Case c = test.in_float ? grade::rounded_to_floats(given) : given;
+    left_out.clear();
+    for (const Shape& shape : {c.shape_a, c.shape_b}) {
+      if (test.shapes.find(fmt::format(" {} ", to_string(shape.kind))) != std::string_view::npos)
+        continue;
+      left_out = fmt::format("the library has no {}", to_string(shape.kind));
+    }
+    if (!grade::EncodedPair(c, Encoding::as_given).is_finite()) {
+      left_out = "a number is beyond the range of floats";
+    }
+    if (left_out.empty()) {
+      text += script_case(test, c, task, oracle);
+      has_case = true;
+    } else {
+      text +=
+          fmt::format("{} Case {} is left out: {}.\n", mark, files::Json(c.id).dump(), left_out);
+    }
+  }
+  if (!has_case) {
+    throw base::InputError(fmt::format("--as-test has no case for {}: {}", algorithm, left_out));
+  }
+  text += test.is_python() ? "]" : "];\n";
+  text += script_end(test);
+  return text;
+}
+
 }  // namespace
 
 std::string names_with_reproducers() {
   std::vector<std::string_view> names;
   for (const LibraryTest& test : library_tests()) names.push_back(test.algorithm);
+  for (const ScriptTest& test : script_tests()) {
+    if (std::ranges::find(names, test.library) == names.end()) names.push_back(test.library);
+  }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-bool has_reproducer(std::string_view algorithm) {
-  return std::ranges::find(library_tests(), algorithm, &LibraryTest::algorithm) !=
-         library_tests().end();
+std::string reproducer_file(std::string_view algorithm) {
+  const std::vector<const ScriptTest*> scripts = scripts_of(algorithm);
+  if (!scripts.empty()) return fmt::format("{}_test{}", algorithm, scripts.front()->extension);
+  const bool is_known = std::ranges::find(library_tests(), algorithm, &LibraryTest::algorithm) !=
+                        library_tests().end();
+  return is_known ? fmt::format("{}_test.cpp", algorithm) : "";
 }
 
 std::string reproducer(std::string_view algorithm, std::span<const files::Case> cases, Task task,
                        const std::filesystem::path& file) {
+  if (!scripts_of(algorithm).empty()) return script_reproducer(algorithm, cases, task, file);
   const auto test = std::ranges::find(library_tests(), algorithm, &LibraryTest::algorithm);
   const NarrowPhaseEntry* const library = registry::find<NarrowPhaseEntry>(algorithm);
   if (test == library_tests().end() || library == nullptr) {
@@ -226,7 +334,7 @@ std::string reproducer(std::string_view algorithm, std::span<const files::Case> 
     const oracle::Measure truth = oracle.measure(pair.a(), pair.b());
     const ExpectedAnswer expected = expected_of(truth, c, task, *library);
     if (test->is_googletest) text += fmt::format("\nTEST(ExactPairs, Case{}) {{\n", number);
-    text += reason_text(truth, expected);
+    text += reason_text(truth, expected.side, "  // ");
     text += fmt::format(
         "  check({}, {},\n        {},\n        {},\n        {},\n"
         "        {{{}, {}, {}, {}, {}}});\n",

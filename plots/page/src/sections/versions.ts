@@ -76,10 +76,10 @@ const told = ({ answers, wrong, wrong_pairs, gave_up, failed, worst }: Cell): st
     .join("; ");
 
 // The command that asks about the pair again, the exact answer beside it.
-function command_of({ folder, algorithm, scalar }: Cell, { id, answers }: CaseView): string {
+function command_of({ folder, algorithm, scalar }: Cell, { id, source, answers }: CaseView): string {
   const who = algorithm.includes("@") ? `--with exact --peer ${algorithm}` : `--with exact,${algorithm}`;
   return (
-    `./touchstone query ${folder.results.folder}/wrong_pairs.jsonl --id ${id} ${who} ` +
+    `./touchstone query ${folder.results.folder}/${source} --id ${id} ${who} ` +
     `--task ${answers[0]!.task} --scalar ${scalar}`
   );
 }

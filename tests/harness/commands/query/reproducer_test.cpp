@@ -2,10 +2,12 @@
 // is right.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "algorithms/registry.h"
 #include "tests/harness/commands/program.h"
+#include "tests/project_folder.h"
 
 namespace touchstone {
 namespace {
@@ -76,12 +78,101 @@ TEST(Reproducer, FailsWhereTheLibraryIsWrong) {
   if (compiled == 0) GTEST_SKIP() << "no library is built";
 }
 
+// A library that an adapter asks, and versions of it whose package makes the test fail and pass.
+struct KnownScript {
+  const char *adapter, *package, *wrong, *right, *task;
+};
+constexpr KnownScript known_scripts[] = {
+    {"mujoco", "@mujoco/mujoco", "3.10.0", "3.12.0", "signed"},
+    {"rapier", "@dimforge/rapier3d-compat", "0.21.0", nullptr, "distance"},
+    {"jolt", "jolt-physics", "1.1.0", nullptr, "signed"}};
+
+// Runs the test of a file where this version of the package is.
+Ran run_script(const TemporaryFolder& folder, const KnownScript& of, const std::string& version,
+               const std::string& name) {
+  namespace fs = std::filesystem;
+  const fs::path link = folder.path() / "node_modules" / of.package;
+  fs::create_directories(link.parent_path());
+  fs::remove(link);
+  fs::create_directory_symlink(fs::path(project_folder) / "datasets/adapters" / of.adapter /
+                                   "node_modules" / (std::string(of.adapter) + "-" + version),
+                               link);
+  return run_shell("cd '" + folder.path().string() + "' && node " + name);
+}
+
+TEST(Reproducer, ScriptsFailWhereTheLibraryIsWrong) {
+  int asked = 0;
+  for (const KnownScript& of : known_scripts) {
+    SCOPED_TRACE(of.adapter);
+    const std::string root = project_folder, adapter = of.adapter;
+    if (!std::filesystem::exists(root + "/datasets/adapters/" + adapter + "/node_modules"))
+      continue;
+    ++asked;
+    const TemporaryFolder folder;
+    const auto sphere = folder.write(
+        "right.jsonl",
+        R"({"a":{"shape":{"type":"sphere","radius":1}},"b":{"shape":{"type":"capsule","radius":1,"half_length":1},"translation":[3,1,0]}})"
+        "\n");
+    const std::string wrong = root + "/results/versions/cases.jsonl";
+    const std::string with = std::string(" --task ") + of.task + " --with none --peer " + adapter +
+                             "@" + of.wrong + " --as-test " + folder.path().string();
+    ASSERT_EQ(run_program("query " + wrong + " --id " + adapter + with + "/wrong.mjs").status, 0);
+    ASSERT_EQ(run_program("query " + sphere.string() + with + "/right.mjs").status, 0);
+    const Ran fails = run_script(folder, of, of.wrong, "wrong.mjs");
+    EXPECT_EQ(fails.status, 1) << fails.text;
+    EXPECT_NE(fails.text.find(adapter + ": "), std::string::npos) << fails.text;
+    const Ran passes = run_script(folder, of, of.wrong, "right.mjs");
+    EXPECT_EQ(passes.status, 0) << passes.text;
+    if (of.right == nullptr) continue;
+    const Ran mended = run_script(folder, of, of.right, "wrong.mjs");
+    EXPECT_EQ(mended.status, 0) << mended.text;
+  }
+  if (asked == 0) GTEST_SKIP() << "no adapter for Node.js is installed";
+}
+
+// Scripts need no library to be written, only one that answers by that name.
+TEST(Reproducer, ScriptsInPythonAreRunWithAStandIn) {
+  const std::string root = project_folder;
+  if (run_shell("/usr/bin/python3 -c 'import numpy'").status != 0) GTEST_SKIP() << "no numpy";
+  const TemporaryFolder folder;
+  const std::string stand_ins = root + "/tests/harness/peer/stand_ins";
+  const auto spheres = folder.write(
+      "spheres.jsonl",
+      R"({"id":"one","a":{"shape":{"type":"sphere","radius":1}},"b":{"shape":{"type":"sphere","radius":1},"translation":[3,0,0]}})"
+      "\n"
+      R"({"id":"other","a":{"shape":{"type":"cone","radius":1,"half_length":1}},"b":{"shape":{"type":"sphere","radius":1}}})"
+      "\n");
+  const std::string query = "query " + spheres.string() +
+                            " --task signed --with none --peer '/usr/bin/python3 -B " + root +
+                            "/tests/harness/peer/hostile.py wrong-sign 0 mujoco 3.3.8' --as-test " +
+                            folder.path().string();
+  const Ran wrote = run_program(query + "/test.py");
+  ASSERT_EQ(wrote.status, 0) << wrote.text;
+  std::string text = folder.read("test.py");
+  EXPECT_NE(text.find("pip install mujoco==3.3.8 && python3 test.py"), std::string::npos);
+  EXPECT_NE(text.find("Case \"other\" is left out: the library has no cone"), std::string::npos);
+  const std::string run =
+      "PYTHONPATH=" + stand_ins + " /usr/bin/python3 -B " + folder.path().string();
+  const Ran passes = run_shell(run + "/test.py");
+  EXPECT_EQ(passes.status, 0) << passes.text;
+  const std::size_t at = text.find("\"number\":1.0");
+  ASSERT_NE(at, std::string::npos) << text;
+  text.replace(at, 12, "\"number\":2.0");
+  folder.write("false.py", text);
+  const Ran fails = run_shell(run + "/false.py");
+  EXPECT_EQ(fails.status, 1);
+  EXPECT_NE(fails.text.find("one: wrong distance"), std::string::npos) << fails.text;
+  // That version has no such package.
+  expect_refusal(query + "/test.mjs", "is no such file; expected one of .py", folder);
+  expect_refusal(query + "/test.cpp", "is no such file; expected one of .py", folder);
+}
+
 TEST(Reproducer, RefusesWhatHasNoForm) {
   const TemporaryFolder folder;
   const auto pair = folder.write("pair.jsonl", std::string(boxes_that_overlap) + "\n");
   const std::string query = "query '" + pair.string() + "' --as-test '" +
                             (folder.path() / "test.cpp").string() + "' --with ";
-  expect_refusal(query + "gjk", "with 0 libraries; expected --with one of fcl-libccd", folder);
+  expect_refusal(query + "gjk", "with 0 libraries; expected one of fcl-libccd", folder);
   if (registry::find<NarrowPhaseEntry>("libccd-mpr")->make) {
     const auto plane = folder.write(
         "plane.jsonl",
