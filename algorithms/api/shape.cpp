@@ -14,6 +14,16 @@ Error::~Error() = default;
 
 const char* version() noexcept { return TOUCHSTONE_VERSION; }
 
+void refuse_moved_shape() {
+  throw Error("this shape was moved from; expected one that has a value");
+}
+void refuse_moved_solver() {
+  throw Error("this solver was moved from; expected one that has a value");
+}
+void refuse_pose() {
+  throw Error("found a pose with a number that is infinite or NaN; expected finite ones");
+}
+
 std::string joined(const std::vector<std::string>& names) {
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;

@@ -84,11 +84,10 @@ typedef struct touchstone_result {
   double normal[3];    /* unit vector from a to b */
   double on_a[3];      /* the closest points; of overlapping bodies on_a - on_b = depth * normal */
   double on_b[3];
+  int32_t iterations, support_calls; /* -1: not counted */
 } touchstone_result;
-#define TOUCHSTONE_RESULT_INIT                                                  \
-  {                                                                             \
-    sizeof(touchstone_result), 3, 4, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, { 0, 0, 0 } \
-  }
+#define TOUCHSTONE_RESULT_INIT \
+  { sizeof(touchstone_result), 3, 4, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, -1, -1 }
 
 typedef struct touchstone_cast_result {
   size_t struct_size; /* set by the caller */

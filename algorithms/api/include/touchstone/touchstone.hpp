@@ -203,8 +203,8 @@ TOUCHSTONE_NAMESPACE_V1 {
   //    then on they cost a look into a table.
   //  - Another shape is prepared at the first call that meets it, and with it the others that were met so:
   //    microseconds. When more than 64 were met, all these are forgotten, and met again.
-  // A call with shapes that its algorithm has prepared allocates no memory. It costs the algorithm's time, two copies of a pose and one of the
-  // result.
+  // A call with shapes that its algorithm has prepared allocates no memory. It costs the algorithm's time, a look at each shape and a
+  // copy of each pose.
   class TOUCHSTONE_API Solver {
    public:
     // Throws if there is no algorithm of that name, with all names.
