@@ -260,6 +260,20 @@ int touchstone_solver_cast(touchstone_solver* solver, const touchstone_shape* sh
   });
 }
 
+int touchstone_certificate(const touchstone_shape* shape_a, const touchstone_pose* pose_a,
+                           const touchstone_shape* shape_b, const touchstone_pose* pose_b,
+                           char** text) {
+  return guarded([&] {
+    check_there(shape_a, pose_a, shape_b, pose_b, text);
+    *text = nullptr;
+    const std::string proof =
+        v1::certificate({shape_a->shape, pose_of(*pose_a)}, {shape_b->shape, pose_of(*pose_b)});
+    *text = new char[proof.size() + 1];
+    std::memcpy(*text, proof.c_str(), proof.size() + 1);
+  });
+}
+void touchstone_text_destroy(char* text) { delete[] text; }
+
 int touchstone_world_create(const touchstone_world_options* options, touchstone_world** world) {
   return guarded([&] {
     check_there(world);

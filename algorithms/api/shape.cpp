@@ -127,6 +127,28 @@ Kind Shape::kind() const {
   return Kind::halfspace;
 }
 
+std::vector<double> Shape::numbers() const {
+  const touchstone::Shape& shape = data_of(*this).shape;
+  const auto of = [](const Vec3d& v) { return std::vector<double>(v.data(), v.data() + 3); };
+  switch (shape.kind) {
+    case ShapeKind::sphere: return {shape.radius};
+    case ShapeKind::capsule:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone: return {shape.radius, shape.half_length};
+    case ShapeKind::box: return of(shape.half_extents);
+    case ShapeKind::ellipsoid: return of(shape.radii);
+    case ShapeKind::halfspace: break;
+    case ShapeKind::hull: {
+      std::vector<double> all;
+      for (const Vec3d& v : shape.hull->vertices) all.insert(all.end(), v.data(), v.data() + 3);
+      return all;
+    }
+  }
+  std::vector<double> all = of(shape.normal);
+  all.push_back(shape.offset);
+  return all;
+}
+
 Pose Pose::from_quaternion(double w, double x, double y, double z, const Vec3& translation) {
   Eigen::Quaterniond turn(w, x, y, z);
   // The greatest part first, so that no square overflows.

@@ -104,6 +104,27 @@ TEST(InterfaceInC, ServesProgramsOfTheFirstHeader) {
   touchstone_solver_destroy(solver);
 }
 
+TEST(InterfaceInC, WritesCertificates) {
+  touchstone_shape *box = nullptr, *cone = nullptr;
+  ASSERT_EQ(touchstone_box(1, 1, 1, &box), TOUCHSTONE_OK);
+  ASSERT_EQ(touchstone_cone(1, 0.1, &cone), TOUCHSTONE_OK);
+  const touchstone_pose beside = at(3.1);
+  char* text = nullptr;
+  ASSERT_EQ(touchstone_certificate(box, &origin, cone, &beside, &text), TOUCHSTONE_OK);
+  EXPECT_EQ(std::string(text),
+            v1::certificate({v1::Shape::box({1, 1, 1}), {}},
+                            {v1::Shape::cone(1, 0.1), v1::Pose::at({3.1, 0, 0})}));
+  EXPECT_NE(std::string(text).find("\"answer\":\"separated\""), std::string::npos);
+  EXPECT_EQ(std::string(text).find('\n'), std::string::npos);
+  touchstone_text_destroy(text);
+  touchstone_text_destroy(nullptr);
+  const touchstone_pose wrong = at(nan);
+  EXPECT_EQ(touchstone_certificate(box, &origin, cone, &wrong, &text), TOUCHSTONE_INVALID);
+  EXPECT_EQ(touchstone_certificate(box, &origin, cone, &beside, nullptr), TOUCHSTONE_INVALID);
+  touchstone_shape_destroy(box);
+  touchstone_shape_destroy(cone);
+}
+
 TEST(InterfaceInC, HasWorlds) {
   touchstone_shape* ball = nullptr;
   touchstone_world* world = nullptr;

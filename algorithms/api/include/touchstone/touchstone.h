@@ -191,6 +191,14 @@ TOUCHSTONE_API int touchstone_solver_cast(
     const touchstone_pose* pose_b, const touchstone_motion* motion_b,
     touchstone_cast_result* result);
 
+/* The exact answer about a pair and its proof, which whoever multiplies fractions can verify: one line of JSON in the
+ * format of results/certificates.md, without a line break. The caller destroys it. */
+TOUCHSTONE_API int touchstone_certificate(const touchstone_shape* shape_a,
+                                          const touchstone_pose* pose_a,
+                                          const touchstone_shape* shape_b,
+                                          const touchstone_pose* pose_b, char** text);
+TOUCHSTONE_API void touchstone_text_destroy(char* text); /* may be NULL */
+
 /* Worlds: bodies, and which of their boxes overlap. Pairs are those of the last update; rays meet the bodies where
  * they are now. A body with a shape has the least box around it; one without is its box (minimum, then maximum), and
  * no ray meets it. A half-space has no box, and is refused. `options` may be NULL. */
