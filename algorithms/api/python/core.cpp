@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "arrays.h"
+#include "algorithms/api/python/arrays.h"
 
 namespace {
 
