@@ -304,10 +304,7 @@ CastResult Solver::cast(const Body& a, const Motion& motion_a, const Body& b,
 namespace {
 
 // A pointer needs no test whether the thread has made it.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wattributes"
 [[gnu::tls_model("initial-exec")]] thread_local Solver* of_thread = nullptr;
-#pragma GCC diagnostic pop
 
 Solver& make_solver_of_thread() {
   struct Owner {

@@ -126,7 +126,10 @@ def _answer(found: Any, task: str) -> Dict[str, Any]:
 
 
 def _run(words: Sequence[str]) -> str:
-    done = subprocess.run(words, capture_output=True, text=True)
+    try:
+        done = subprocess.run(words, capture_output=True, text=True)
+    except OSError as error:
+        raise Error(f"{words[0]}: {error.strerror}; expected the program touchstone") from error
     if done.returncode in (0, 1):
         return done.stdout
     lines = done.stderr.strip().splitlines()
