@@ -1,6 +1,7 @@
 // The interface in C, on that in C++. No exception leaves it.
 #include <touchstone/touchstone.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -76,6 +77,8 @@ v1::Motion motion_of(const touchstone_motion& motion) {
 // The least size that a structure had in any version.
 template <class Struct>
 constexpr std::size_t first_size = sizeof(Struct);
+template <>
+constexpr std::size_t first_size<touchstone_result> = offsetof(touchstone_result, iterations);
 
 template <class Struct>
 void check_size(const Struct& given) {
@@ -83,6 +86,24 @@ void check_size(const Struct& given) {
   throw v1::Error("found " + std::to_string(given.struct_size) +
                   " as struct_size; expected at least " + std::to_string(first_size<Struct>) +
                   ", as the structure's _INIT sets it");
+}
+
+// A result of today's size has that of C++ in it, which is written in place. The answer and the status are numbers of another
+// width in the same eight bytes.
+constexpr std::size_t inner_result = offsetof(touchstone_result, answer);
+static_assert(inner_result + offsetof(v1::Result, distance) ==
+                  offsetof(touchstone_result, distance) &&
+              inner_result + offsetof(v1::Result, upper) == offsetof(touchstone_result, upper) &&
+              inner_result + offsetof(v1::Result, normal) == offsetof(touchstone_result, normal) &&
+              inner_result + offsetof(v1::Result, on_b) == offsetof(touchstone_result, on_b) &&
+              inner_result + offsetof(v1::Result, support_calls) ==
+                  offsetof(touchstone_result, support_calls) &&
+              inner_result + sizeof(v1::Result) == sizeof(touchstone_result) &&
+              offsetof(v1::Result, distance) == 2 * sizeof(std::int32_t));
+
+void write_words(v1::Answer answer, v1::Status status, touchstone_result& result) {
+  result.answer = static_cast<std::int32_t>(answer);
+  result.status = static_cast<std::int32_t>(status);
 }
 
 template <class Make>
@@ -196,20 +217,23 @@ int touchstone_solver_ask(touchstone_solver* solver, int question, const touchst
   return guarded([&] {
     check_there(solver, shape_a, pose_a, shape_b, pose_b, result);
     check_size(*result);
-    if (question < TOUCHSTONE_INTERSECT || question > TOUCHSTONE_SIGNED_DISTANCE) {
+    if (question < TOUCHSTONE_INTERSECT || question > TOUCHSTONE_SIGNED_DISTANCE) [[unlikely]] {
       throw v1::Error("found the question " + std::to_string(question) + "; expected 0 to 3");
     }
-    const v1::Result answer =
-        solver->solver.ask(static_cast<v1::Question>(question), shape_a->shape, pose_of(*pose_a),
-                           shape_b->shape, pose_of(*pose_b));
-    result->answer = static_cast<std::int32_t>(answer.answer);
-    result->status = static_cast<std::int32_t>(answer.status);
-    result->distance = answer.distance;
-    result->lower = answer.lower;
-    result->upper = answer.upper;
-    write(answer.normal, result->normal);
-    write(answer.on_a, result->on_a);
-    write(answer.on_b, result->on_b);
+    const auto ask = [&] {
+      return solver->solver.ask(static_cast<v1::Question>(question), shape_a->shape,
+                                pose_of(*pose_a), shape_b->shape, pose_of(*pose_b));
+    };
+    if (result->struct_size >= sizeof *result) [[likely]] {
+      const auto* answer =
+          new (reinterpret_cast<std::byte*>(result) + inner_result) v1::Result(ask());
+      write_words(answer->answer, answer->status, *result);
+    } else {
+      const v1::Result answer = ask();
+      std::memcpy(&result->distance, &answer.distance,
+                  first_size<touchstone_result> - offsetof(touchstone_result, distance));
+      write_words(answer.answer, answer.status, *result);
+    }
   });
 }
 
@@ -235,6 +259,20 @@ int touchstone_solver_cast(touchstone_solver* solver, const touchstone_shape* sh
     write(answer.point, result->point);
   });
 }
+
+int touchstone_certificate(const touchstone_shape* shape_a, const touchstone_pose* pose_a,
+                           const touchstone_shape* shape_b, const touchstone_pose* pose_b,
+                           char** text) {
+  return guarded([&] {
+    check_there(shape_a, pose_a, shape_b, pose_b, text);
+    *text = nullptr;
+    const std::string proof =
+        v1::certificate({shape_a->shape, pose_of(*pose_a)}, {shape_b->shape, pose_of(*pose_b)});
+    *text = new char[proof.size() + 1];
+    std::memcpy(*text, proof.c_str(), proof.size() + 1);
+  });
+}
+void touchstone_text_destroy(char* text) { delete[] text; }
 
 int touchstone_world_create(const touchstone_world_options* options, touchstone_world** world) {
   return guarded([&] {

@@ -2,6 +2,7 @@
 // the interface's names are in touchstone::v1, and touchstone::Shape is that of the core.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -22,10 +23,15 @@ struct Shape::Data {
   touchstone::Shape shape;
 };
 
+// These throw. They are apart, so that the calls of one pair stay short.
+[[noreturn]] void refuse_moved_shape();
+[[noreturn]] void refuse_moved_solver();
+[[noreturn]] void refuse_pose();
+
 // Throws if the shape was moved from.
 inline const Shape::Data& data_of(const Shape& shape) {
-  if (shape.data() == nullptr)
-    throw Error("this shape was moved from; expected one that has a value");
+  if (shape.data() == nullptr) [[unlikely]]
+    refuse_moved_shape();
   return *shape.data();
 }
 
@@ -54,16 +60,46 @@ inline void write_inner(const Pose& pose, touchstone::Pose& inner) {
 }
 
 // Returns false if one of its numbers is infinite or NaN.
-inline bool is_finite(const touchstone::Pose& pose) {
-  // Zero times a number is zero, unless that is infinite or NaN.
-  const double sum = (0 * pose.rotation).sum() + (0 * pose.translation).sum();
-  return sum == 0;
+inline bool is_finite(const Pose& pose) {
+  return is_finite(pose.x_axis) && is_finite(pose.y_axis) && is_finite(pose.z_axis) &&
+         is_finite(pose.translation);
 }
+
 inline void check_pose(const Pose& pose) {
-  touchstone::Pose given;
-  write_inner(pose, given);
-  if (!is_finite(given))
-    throw Error("found a pose with a number that is infinite or NaN; expected finite ones");
+  if (!is_finite(pose)) [[unlikely]]
+    refuse_pose();
+}
+
+// The same for a pair that is asked for alone. A sum is infinite or NaN if a number in it is, or if it overflows, and then
+// each number is looked at. Numbers are read one by one, by `volatile`, and written in twos: a processor waits where it reads
+// together what was just written apart.
+// `numbers` has room for two poses, which then are there.
+inline std::span<const touchstone::Pose> write_inner_checked(const Pose& pose_a, const Pose& pose_b,
+                                                             std::array<double, 24>& numbers) {
+  using Two [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
+  Two twos{};
+  double ones = 0;
+  double* to = numbers.data();
+  const auto alone = [](const double& number) {
+    return static_cast<const volatile double&>(number);
+  };
+  for (const Pose* pose : {&pose_a, &pose_b}) {
+    for (const Vec3* from : {&pose->x_axis, &pose->y_axis, &pose->z_axis, &pose->translation}) {
+      const Two two = {alone(from->x), alone(from->y)};
+      const double one = alone(from->z);
+      twos += two;
+      ones += one;
+      *reinterpret_cast<Two*>(to) = two;
+      to[2] = one;
+      to += 3;
+    }
+  }
+  const double sum = twos[0] + twos[1] + ones;
+  if (!(sum - sum == 0)) [[unlikely]] {
+    check_pose(pose_a);
+    check_pose(pose_b);
+  }
+  return {reinterpret_cast<const touchstone::Pose*>(numbers.data()), 2};
 }
 
 std::string joined(const std::vector<std::string>& names);

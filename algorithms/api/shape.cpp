@@ -14,6 +14,16 @@ Error::~Error() = default;
 
 const char* version() noexcept { return TOUCHSTONE_VERSION; }
 
+void refuse_moved_shape() {
+  throw Error("this shape was moved from; expected one that has a value");
+}
+void refuse_moved_solver() {
+  throw Error("this solver was moved from; expected one that has a value");
+}
+void refuse_pose() {
+  throw Error("found a pose with a number that is infinite or NaN; expected finite ones");
+}
+
 std::string joined(const std::vector<std::string>& names) {
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
@@ -115,6 +125,28 @@ Kind Shape::kind() const {
     case ShapeKind::halfspace: break;
   }
   return Kind::halfspace;
+}
+
+std::vector<double> Shape::numbers() const {
+  const touchstone::Shape& shape = data_of(*this).shape;
+  const auto of = [](const Vec3d& v) { return std::vector<double>(v.data(), v.data() + 3); };
+  switch (shape.kind) {
+    case ShapeKind::sphere: return {shape.radius};
+    case ShapeKind::capsule:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone: return {shape.radius, shape.half_length};
+    case ShapeKind::box: return of(shape.half_extents);
+    case ShapeKind::ellipsoid: return of(shape.radii);
+    case ShapeKind::halfspace: break;
+    case ShapeKind::hull: {
+      std::vector<double> all;
+      for (const Vec3d& v : shape.hull->vertices) all.insert(all.end(), v.data(), v.data() + 3);
+      return all;
+    }
+  }
+  std::vector<double> all = of(shape.normal);
+  all.push_back(shape.offset);
+  return all;
 }
 
 Pose Pose::from_quaternion(double w, double x, double y, double z, const Vec3& translation) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <memory>
@@ -28,10 +29,22 @@ class ShapeStore {
 
   // Returns the place of the shape with that id, or `none`.
   std::uint32_t find(std::uint64_t id) const {
-    for (std::size_t at = id & (table_.size() - 1);; at = (at + 1) & (table_.size() - 1)) {
-      if (table_[at].id == id) return table_[at].place;
-      if (table_[at].id == 0) return none;
+    const Entry* const table = table_.data();
+    for (std::size_t at = id & mask_;; at = (at + 1) & mask_) {
+      if (table[at].id == id) return table[at].place;
+      if (table[at].id == 0) return none;
     }
+  }
+
+  // Writes the places of two, and returns whether it has both. Few ids are not where they are looked for first.
+  bool find(std::uint64_t id_a, std::uint64_t id_b, std::array<std::uint32_t, 2>& places) const {
+    const Entry &a = table_.data()[id_a & mask_], &b = table_.data()[id_b & mask_];
+    if (a.id == id_a && b.id == id_b) [[likely]] {
+      places = {a.place, b.place};
+      return true;
+    }
+    places = {find(id_a), find(id_b)};
+    return places[0] != none && places[1] != none;
   }
 
   // Returns the place of the shape, which is kept from now on. The algorithms are bound again at their next use.
@@ -58,6 +71,17 @@ class ShapeStore {
     std::ranges::fill(table_, Entry{});
   }
 
+  // The algorithm that answers one pair of these kinds, a <= b, bound to all shapes; null if there is none.
+  NarrowPhase* alone(Task task, ShapeKind a, ShapeKind b) {
+    const auto of_task = static_cast<std::size_t>(task), i = static_cast<std::size_t>(a),
+               j = static_cast<std::size_t>(b);
+    NarrowPhase*& algorithm = alone_[(8 * of_task + i) * 8 + j];
+    if (algorithm == nullptr) [[unlikely]] {
+      const std::uint8_t which = choice_.alone[of_task][i][j];
+      if (which != Choice::none) algorithm = &narrow_phase(which);
+    }
+    return algorithm;
+  }
   // The algorithm at that place of the choice, bound to all shapes.
   NarrowPhase& narrow_phase(std::uint8_t which) {
     Bound<NarrowPhase>& bound = pairs_[which];
@@ -90,16 +114,18 @@ class ShapeStore {
     bound.is_bound = true;
   }
   void unbind() {
+    alone_.fill(nullptr);
     for (auto& bound : pairs_) bound.is_bound = false;
     for (auto& bound : casts_) bound.is_bound = false;
   }
   void enter(std::uint64_t id, std::uint32_t place) {
-    std::size_t at = id & (table_.size() - 1);
-    while (table_[at].id != 0) at = (at + 1) & (table_.size() - 1);
+    std::size_t at = id & mask_;
+    while (table_[at].id != 0) at = (at + 1) & mask_;
     table_[at] = {id, place};
   }
   void grow() {
     table_.assign(std::bit_ceil(4 * shapes_.size()), {});
+    mask_ = table_.size() - 1;
     for (std::uint32_t i = 0; i < held_.size(); ++i) enter(held_[i].data()->id, i);
   }
 
@@ -109,7 +135,9 @@ class ShapeStore {
   std::vector<Bound<Cast>> casts_;
   std::vector<Shape> held_;
   std::vector<touchstone::Shape> shapes_;
-  std::vector<Entry> table_;  // its size is a power of two
+  std::vector<Entry> table_;               // its size is a power of two
+  std::size_t mask_ = 1;                   // less one
+  std::array<NarrowPhase*, 256> alone_{};  // for each task and two kinds, those that are bound
 };
 
 }  // namespace touchstone::v1

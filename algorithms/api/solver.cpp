@@ -20,25 +20,30 @@ static_assert(static_cast<int>(Question::intersect) == static_cast<int>(Task::in
                   static_cast<int>(Task::signed_distance));
 Task inner(Question question) { return static_cast<Task>(question); }
 
-// The numbers of a result are those of an outcome, in its order.
-static_assert(sizeof(Result) == sizeof(Outcome) &&
+// A new result is a new outcome, byte for byte, so that an algorithm writes it in place.
+static_assert(sizeof(Result) == sizeof(Outcome) && alignof(Result) == alignof(Outcome) &&
+              offsetof(Result, answer) == offsetof(Outcome, answer) &&
+              offsetof(Result, status) == offsetof(Outcome, status) &&
               offsetof(Result, distance) == offsetof(Outcome, distance) &&
+              offsetof(Result, upper) == offsetof(Outcome, upper) &&
+              offsetof(Result, normal) == offsetof(Outcome, normal) &&
               offsetof(Result, on_b) == offsetof(Outcome, witness_b) &&
               offsetof(Result, iterations) == offsetof(Outcome, iterations) &&
               static_cast<int>(Answer::unknown) == static_cast<int>(touchstone::Answer::unknown) &&
-              offsetof(Result, status) == offsetof(Outcome, status) &&
               static_cast<int>(Status::unsupported) ==
                   static_cast<int>(touchstone::Status::unsupported));
-// Writes what the question gives of an outcome that was new, with bounds whatever was asked, as only_given and
-// swapped do; but once, for callers of one pair.
-void write_outer(Question question, const Outcome& outcome, bool swap, Result& result) {
-  std::memcpy(static_cast<void*>(&result), static_cast<const void*>(&outcome), sizeof result);
-  if (!asks_for_number(inner(question), outcome.answer) ||
-      outcome.answer == touchstone::Answer::unknown) {
+Outcome& outcome_of(Result& result) { return reinterpret_cast<Outcome&>(result); }
+
+// Leaves what the question gives of an outcome that was new, with bounds whatever was asked, as only_given and
+// swapped do; but once, and in place, for callers of one pair.
+void keep_given(Task task, bool swap, Result& result) {
+  if (!asks_for_number(task, static_cast<touchstone::Answer>(result.answer)) ||
+      result.answer == Answer::unknown) {
     result.distance = Result::none;
     result.normal = result.on_a = result.on_b = {Result::none, Result::none, Result::none};
   } else if (swap) {
-    result.normal = v1::outer(Vec3d(Vec3d::Zero() - outcome.normal));
+    const Vec3 n = result.normal;
+    result.normal = {0 - n.x, 0 - n.y, 0 - n.z};  // 0 - n keeps a zero positive
     std::swap(result.on_a, result.on_b);
   }
 }
@@ -68,54 +73,65 @@ struct Solver::Parts {
   // Returns the store in which both shapes are, and their places.
   ShapeStore& store_of(const Shape& a, const Shape& b, std::array<std::uint32_t, 2>& places) {
     const std::uint64_t id_a = data_of(a).id, id_b = data_of(b).id;
-    if (prepared.size() != 0) {
-      places = {prepared.find(id_a), prepared.find(id_b)};
-      if (places[0] != ShapeStore::none && places[1] != ShapeStore::none) return prepared;
-    }
-    places = {met.find(id_a), met.find(id_b)};
-    if (places[0] == ShapeStore::none || places[1] == ShapeStore::none) [[unlikely]] {
-      if (met.size() > most_met) met.forget();
-      places = {met.add(a), met.add(b)};
-    }
+    if (prepared.size() != 0 && prepared.find(id_a, id_b, places)) return prepared;
+    if (!met.find(id_a, id_b, places)) [[unlikely]]
+      meet(a, b, places);
     return met;
+  }
+  [[gnu::noinline]] void meet(const Shape& a, const Shape& b,
+                              std::array<std::uint32_t, 2>& places) {
+    if (met.size() > most_met) met.forget();
+    places = {met.add(a), met.add(b)};
   }
   ShapeStore& store_of(std::span<const Body> bodies);
 
-  // Returns whether the outcome is that of (b, a).
-  bool ask_alone(Task task, const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
-                 const Pose& pose_b, Outcome& outcome);
+  struct OnePair;
 };
 
-bool Solver::Parts::ask_alone(Task task, const Shape& shape_a, const Pose& pose_a,
-                              const Shape& shape_b, const Pose& pose_b, Outcome& outcome) {
+// One pair that is asked for alone, as a batch of one: its input was checked, and its algorithm is bound.
+struct Solver::Parts::OnePair {
+  [[gnu::always_inline]] OnePair(Parts& parts, Task asked, const Shape& shape_a, const Pose& pose_a,
+                                 const Shape& shape_b, const Pose& pose_b)
+      : store(parts.store_of(shape_a, shape_b, places)),
+        where_open(parts.choice.where_open),
+        task(asked),
+        swap(needs_swap(shape_a.data()->shape.kind, shape_b.data()->shape.kind)),
+        batch{.kind_a = (swap ? shape_b : shape_a).data()->shape.kind,
+              .kind_b = (swap ? shape_a : shape_b).data()->shape.kind,
+              .pairs = {.first = std::span(&bodies[swap ? 1 : 0], 1),
+                        .second = std::span(&bodies[swap ? 0 : 1], 1),
+                        .shape_of = places,
+                        .poses = write_inner_checked(pose_a, pose_b, placed)}},
+        algorithm(store.alone(task, batch.kind_a, batch.kind_b)) {}
+  OnePair(const OnePair&) = delete;
+  OnePair& operator=(const OnePair&) = delete;
+
+  // `outcome` is new.
+  void solve(Outcome& outcome) {
+    if (algorithm == nullptr) [[unlikely]]
+      return;
+    algorithm->solve_alone(task, batch, 0, outcome);
+    if (outcome.answer == touchstone::Answer::unknown && where_open != Choice::none) [[unlikely]] {
+      outcome = {};
+      store.narrow_phase(where_open).solve_alone(task, batch, 0, outcome);
+    }
+  }
+
   static constexpr std::array<std::uint32_t, 2> bodies{0, 1};
+  std::array<double, 24> placed;
   std::array<std::uint32_t, 2> places;
-  ShapeStore& store = store_of(shape_a, shape_b, places);
-  const ShapeKind kind_a = store.shape(places[0]).kind, kind_b = store.shape(places[1]).kind;
-  const bool swap = needs_swap(kind_a, kind_b);
-  std::array<touchstone::Pose, 2> placed;
-  write_inner(pose_a, placed[0]);
-  write_inner(pose_b, placed[1]);
-  if (!is_finite(placed[0]) || !is_finite(placed[1])) [[unlikely]] {
-    throw Error("found a pose with a number that is infinite or NaN; expected finite ones");
-  }
-  const PairBatch batch = {.kind_a = swap ? kind_b : kind_a,
-                           .kind_b = swap ? kind_a : kind_b,
-                           .pairs = {.first = std::span(&bodies[swap ? 1 : 0], 1),
-                                     .second = std::span(&bodies[swap ? 0 : 1], 1),
-                                     .shape_of = places,
-                                     .poses = placed}};
-  const std::uint8_t which =
-      choice.alone[static_cast<std::size_t>(task)][static_cast<std::size_t>(batch.kind_a)]
-                  [static_cast<std::size_t>(batch.kind_b)];
-  if (which == Choice::none) return swap;
-  store.narrow_phase(which).solve_alone(task, batch, 0, outcome);
-  if (outcome.answer == touchstone::Answer::unknown && choice.where_open != Choice::none)
-      [[unlikely]] {
-    outcome = {};
-    store.narrow_phase(choice.where_open).solve_alone(task, batch, 0, outcome);
-  }
-  return swap;
+  ShapeStore& store;
+  std::uint8_t where_open;
+  Task task;
+  bool swap;  // the outcome is that of (b, a)
+  PairBatch batch;
+  NarrowPhase* algorithm;  // null: unsupported
+};
+
+inline Solver::Parts& Solver::parts() {
+  if (!parts_) [[unlikely]]
+    refuse_moved_solver();
+  return *parts_;
 }
 
 Solver::Solver(const SolverOptions& options) {
@@ -127,12 +143,6 @@ Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
-Solver::Parts& Solver::parts() {
-  if (!parts_) [[unlikely]]
-    throw Error("this solver was moved from; expected one that has a value");
-  return *parts_;
-}
-
 void Solver::prepare(std::span<const Shape> shapes) {
   for (const Shape& shape : shapes) data_of(shape);
   Parts& parts = this->parts();
@@ -142,16 +152,16 @@ void Solver::prepare(std::span<const Shape> shapes) {
 
 Result Solver::ask(Question question, const Shape& shape_a, const Pose& pose_a,
                    const Shape& shape_b, const Pose& pose_b) {
-  Outcome outcome;
-  const bool swap = parts().ask_alone(inner(question), shape_a, pose_a, shape_b, pose_b, outcome);
+  Parts::OnePair pair(parts(), inner(question), shape_a, pose_a, shape_b, pose_b);
   Result result;
-  write_outer(question, outcome, swap, result);
+  pair.solve(outcome_of(result));
+  keep_given(pair.task, pair.swap, result);
   return result;
 }
 
 bool Solver::intersects(const Body& a, const Body& b) {
   Outcome outcome;
-  parts().ask_alone(Task::intersect, a.shape, a.pose, b.shape, b.pose, outcome);
+  Parts::OnePair(parts(), Task::intersect, a.shape, a.pose, b.shape, b.pose).solve(outcome);
   if (outcome.answer == touchstone::Answer::unknown) [[unlikely]] {
     throw Error("no algorithm could decide whether the bodies intersect: " +
                 std::string(to_string(outcome.status)));
@@ -189,7 +199,7 @@ void Solver::ask(Question question, std::span<const Body> bodies, std::span<cons
   parts.poses.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     write_inner(bodies[i].pose, parts.poses[i]);
-    if (is_finite(parts.poses[i])) continue;
+    if (is_finite(bodies[i].pose)) continue;
     throw Error("found a number that is infinite or NaN in the pose of body " + std::to_string(i) +
                 "; expected finite ones");
   }
@@ -238,8 +248,9 @@ void Solver::ask(Question question, std::span<const Body> bodies, std::span<cons
   }
   for (std::size_t at = 0; at < pairs.size(); ++at) {
     const IndexPair& pair = pairs[parts.order[at]];
-    write_outer(question, parts.outcomes[at], needs_swap(kind(pair.a), kind(pair.b)),
-                results[parts.order[at]]);
+    Result& result = results[parts.order[at]];
+    outcome_of(result) = parts.outcomes[at];
+    keep_given(task, needs_swap(kind(pair.a), kind(pair.b)), result);
   }
 }
 
@@ -292,9 +303,22 @@ CastResult Solver::cast(const Body& a, const Motion& motion_a, const Body& b,
 
 namespace {
 
+// A pointer needs no test whether the thread has made it.
+[[gnu::tls_model("initial-exec")]] thread_local Solver* of_thread = nullptr;
+
+Solver& make_solver_of_thread() {
+  struct Owner {
+    Solver solver;
+    Owner() { of_thread = &solver; }
+    ~Owner() { of_thread = nullptr; }
+  };
+  thread_local Owner owner;
+  return owner.solver;
+}
 Solver& solver_of_thread() {
-  thread_local Solver solver;
-  return solver;
+  if (of_thread == nullptr) [[unlikely]]
+    return make_solver_of_thread();
+  return *of_thread;
 }
 
 }  // namespace

@@ -203,7 +203,7 @@ void World::update() { parts().update(); }
 void World::Parts::update() {
   // A slot that came and went since the last update has no place in the lists of a frame.
   bool from_scratch = !is_built;
-  std::ranges::sort(changed);
+  if (!std::ranges::is_sorted(changed)) std::ranges::sort(changed);
   inserted.clear();
   moved.clear();
   removed.clear();

@@ -17,6 +17,7 @@
 #include "harness/commands/commands.h"
 #include "harness/commands/pictures.h"
 #include "harness/commands/shared_options.h"
+#include "harness/modules/modules.h"
 #include "harness/stats/cell_tables.h"
 #include "harness/trade/advice/advice_files.h"
 #include "harness/trade/trade_files.h"
@@ -27,7 +28,7 @@ namespace {
 struct AdviseOptions {
   trade::TradeRequest request;
   trade::ErrorBudget budget;
-  std::string scene, list, out, error;
+  std::string scene, list, out, error, with;
   bool verify = false, front = false, motion = false, plain = false;
   int draws = 3;
 };
@@ -149,6 +150,12 @@ void add_advise(Arguments command) {
                "Folder (default: results/local/trade-NAME-advice; with --front "
                "trade-NAME)");
   add_trade_axes(command, options->request);
+  command
+      .text("--with", options->with,
+            "Also try the broad phases, narrow phases and mesh algorithms of these modules, joined "
+            "by "
+            "commas: ./libmine.so")
+      .excludes(command.option("--motion"));
   list.excludes(scene);
   for (const char* name :
        {"--max-error", "--no-false-negatives", "--error", "--task", "--count", "--seed"}) {
@@ -162,6 +169,8 @@ void add_advise(Arguments command) {
     if (!scene.given() && !list.given()) {
       throw base::InputError("advise: no scene; expected a scene file, or --list FILE");
     }
+    expect_module_files(options->with);
+    modules::load_named(options->with);
     return options->front ? run_front(*options) : advise(*options);
   });
 }

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,8 @@
 #include "harness/files/packed_files.h"
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
+#include "harness/modules/file_word.h"
+#include "harness/modules/modules.h"
 #include "harness/record/machine.h"
 #include "harness/report/page_file.h"
 #include "harness/report/recording_view.h"
@@ -38,7 +41,7 @@ namespace fs = std::filesystem;
 struct ReportOptions {
   std::vector<std::string> results, versions, scenes, peers;
   std::string narrow = "certified,gjk", broad = "uniform-grid,linear-bvh,sweep-and-prune";
-  std::string out, page;
+  std::string out, page, with;
   scene::SceneOverrides overrides;
   int frames = report::RecordingRequest{}.most_frames;
   int cases = report::ResultsRequest{}.most_cases;
@@ -81,6 +84,31 @@ files::OrderedJson approximate() {
     if (entry.approximate) names.push_back(entry.info.name);
   }
   return names;
+}
+
+// Loads the modules of --with, and adds what they offer to the phases that a scene shows.
+void add_modules(ReportOptions& options) {
+  if (options.with.empty()) return;
+  expect_module_files(options.with);
+  modules::load_named(options.with);
+  for (const std::string& word : kinds::split_names(options.with)) {
+    const std::string file = modules::file_of(word);
+    bool has_some = false;
+    const auto add = [&]<class Entry>(std::span<const Entry> entries, std::string& names) {
+      for (const Entry& entry : entries) {
+        if (registry::module_of(entry.info) != file) continue;
+        names = joined_names(names, entry.info.name);
+        has_some = true;
+      }
+    };
+    add(registry::entries<NarrowPhaseEntry>(), options.narrow);
+    add(registry::entries<BroadPhaseEntry>(), options.broad);
+    if (has_some) continue;
+    throw base::InputError(
+        fmt::format("--with {}: has neither narrow nor broad phases; expected some, since a scene "
+                    "shows no other kinds",
+                    word));
+  }
 }
 
 // `peers` are asked too.
@@ -177,6 +205,7 @@ void add_versions(ReportOptions& options) {
 
 void make_report(ReportOptions options) {
   add_versions(options);
+  add_modules(options);
   if (options.results.empty() && options.scenes.empty()) {
     throw base::InputError("nothing to report; expected folders of results, or --scene SCENE");
   }
@@ -248,6 +277,11 @@ void add_report(Arguments command) {
   command.text("--broad", options->broad, "Broad phases whose structure a scene shows: names")
       .show_default();
   add_peer(command, options->peers);
+  command
+      .text(
+          "--with", options->with,
+          "Also show the narrow and broad phases of these modules, joined by commas: ./libmine.so")
+      .needs(command.option("--scene"));
   command.number("--frames", options->frames, "The most frames of a scene")
       .within(1, 100'000)
       .show_default();

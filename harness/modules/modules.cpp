@@ -185,6 +185,12 @@ void load_named(std::string_view words) {
   }
 }
 
+std::vector<std::filesystem::path> files() {
+  std::vector<std::filesystem::path> all;
+  for (const auto& [file, hash] : loaded()) all.push_back(file);
+  return all;
+}
+
 std::vector<std::pair<std::string, std::string>> facts() {
   std::vector<std::pair<std::string, std::string>> all;
   for (const auto& [file, hash] : loaded()) {

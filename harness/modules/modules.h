@@ -16,7 +16,10 @@ void load(const std::filesystem::path& file);
 // Loads the modules among these words, which are joined by commas (is_file of file_word.h says which they are).
 void load_named(std::string_view words);
 
-// The files that were loaded, with a hash of their bytes: what results depend on.
+// The files that were loaded: absolute paths.
+std::vector<std::filesystem::path> files();
+
+// The names of those files, with a hash of their bytes: what results depend on.
 std::vector<std::pair<std::string, std::string>> facts();
 
 }  // namespace touchstone::modules

@@ -195,7 +195,7 @@ namespace {
 constexpr std::array<std::string_view, 9> broad_names = {
     "sweep-one-axis", "sweep-and-prune", "packed-rtree", "verlet-list", "hierarchical-grid",
     "linear-bvh",     "dynamic-bvh",     "uniform-grid", "naive"};
-// Behind these every library. A pair that gjk-lanes does not take goes to the algorithm behind it.
+// Behind these every library, and every module that was loaded. A pair that gjk-lanes does not take goes to the algorithm behind it.
 constexpr std::array<std::string_view, 12> narrow_names = {
     "gjk",           "gjk-lanes+gjk", "closed-form+gjk", "closed-form+gjk-lanes+gjk",
     "ellipsoid+gjk", "sat+gjk",       "sat-faces+gjk",   "gjk-nesterov",
@@ -243,6 +243,9 @@ std::vector<NarrowChain> all_chains(Task task) {
   std::vector<NarrowChain> all = chains(narrow_names);
   for (const NarrowPhaseEntry& entry : registry::entries<NarrowPhaseEntry>()) {
     if (entry.info.origin == Origin::peer && is_built(entry.info)) all.push_back({&entry});
+    // What a module does not take goes on to gjk.
+    if (entry.info.origin == Origin::module)
+      all.push_back({&entry, registry::find<NarrowPhaseEntry>("gjk")});
   }
   // The verdicts of mpr-refined equal those of mpr, so it is added for depths only.
   if (task == Task::penetration) all.push_back(parse_chain("mpr-refined"));
@@ -254,11 +257,12 @@ std::vector<BoxChoice> box_choices() {
       {}, {BoxChoice::Kind::loose, 0}, {BoxChoice::Kind::fat, 0.05}, {BoxChoice::Kind::fat, 0.2}};
 }
 
-// `fused`, and every library.
+// `fused`, and every library and module.
 std::vector<const ConcaveEntry*> concave_entries() {
   std::vector<const ConcaveEntry*> entries = {registry::find<ConcaveEntry>("fused")};
   for (const ConcaveEntry& entry : registry::entries<ConcaveEntry>()) {
-    if (entry.info.origin == Origin::peer && is_built(entry.info)) entries.push_back(&entry);
+    const bool is_other = entry.info.origin == Origin::peer || entry.info.origin == Origin::module;
+    if (is_other && is_built(entry.info)) entries.push_back(&entry);
   }
   return entries;
 }
@@ -267,6 +271,9 @@ std::vector<const BroadPhaseEntry*> broad_entries() {
   std::vector<const BroadPhaseEntry*> entries;
   for (const std::string_view name : broad_names)
     entries.push_back(registry::find<BroadPhaseEntry>(name));
+  for (const BroadPhaseEntry& entry : registry::entries<BroadPhaseEntry>()) {
+    if (entry.info.origin == Origin::module) entries.push_back(&entry);
+  }
   return entries;
 }
 

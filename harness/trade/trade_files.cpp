@@ -8,6 +8,7 @@
 #include "harness/base/hash.h"
 #include "harness/base/table.h"
 #include "harness/files/text_file.h"
+#include "harness/modules/modules.h"
 #include "harness/record/machine.h"
 
 namespace touchstone::trade {
@@ -27,6 +28,7 @@ record::Facts facts_of(const TradeRequest& request, const TradeScene& scene,
                          {"executor", std::string(to_string(request.executor))},
                          {"error", std::string(to_string(request.measure))}};
   facts.insert(facts.end(), request.facts.begin(), request.facts.end());
+  for (auto& fact : modules::facts()) facts.push_back(std::move(fact));
   return facts;
 }
 

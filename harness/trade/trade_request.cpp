@@ -8,6 +8,7 @@
 
 #include "harness/files/toml_table.h"
 #include "harness/kinds/selection.h"
+#include "harness/modules/modules.h"
 
 namespace touchstone::trade {
 namespace {
@@ -186,6 +187,10 @@ std::vector<TradeRequest> read_trades(const std::filesystem::path& file,
   files::TomlTable top(root, file.string(), "");
   TradeRequest request;
   request.name = files::folder_name(top, file);
+  // Modules come first, since grids name their algorithms.
+  const std::filesystem::path folder = home.empty() ? file.parent_path() : home;
+  for (const std::string& module_file : top.texts("modules", {}))
+    modules::load(folder / module_file);
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   request.seed = static_cast<std::uint64_t>(top.integer("seed", 0, most, 1));
   files::TomlTable table = top.inside("trade", "trade");
@@ -206,7 +211,6 @@ std::vector<TradeRequest> read_trades(const std::filesystem::path& file,
   }
   table.finish();
   top.finish();
-  const std::filesystem::path folder = home.empty() ? file.parent_path() : home;
   std::vector<TradeRequest> requests;
   for (const std::string& scene : scenes) {
     for (const std::int64_t count : counts) {
@@ -236,8 +240,12 @@ std::string trade_toml(const TradeRequest& request, const std::filesystem::path&
       std::filesystem::absolute(request.scene)
           .lexically_normal()
           .lexically_relative(std::filesystem::absolute(folder).lexically_normal());
-  text += fmt::format("name = {}\nseed = {}\n\n[trade]\nscene = {}\n", in_quotes(request.name),
-                      request.seed, in_quotes(scene.string()));
+  text += fmt::format("name = {}\nseed = {}\n", in_quotes(request.name), request.seed);
+  std::string module_files;
+  for (const std::filesystem::path& module_file : modules::files())
+    module_files += (module_files.empty() ? "" : ", ") + in_quotes(module_file.string());
+  if (!module_files.empty()) text += fmt::format("modules = [{}]\n", module_files);
+  text += fmt::format("\n[trade]\nscene = {}\n", in_quotes(scene.string()));
   if (request.overrides.count != -1) text += fmt::format("count = {}\n", request.overrides.count);
   if (request.overrides.seed != -1) text += fmt::format("seed = {}\n", request.overrides.seed);
   if (request.overrides.frames != -1)

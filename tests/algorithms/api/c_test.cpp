@@ -3,6 +3,8 @@
 #include <touchstone/touchstone.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <touchstone/touchstone.hpp>
@@ -57,6 +59,70 @@ TEST(InterfaceInC, AsksAsInCpp) {
   touchstone_shape_destroy(cone);
   touchstone_shape_destroy(hull);
   touchstone_solver_destroy(solver);
+}
+
+// The structure as the header had it before it counted.
+struct FirstResult {
+  std::size_t struct_size = sizeof(FirstResult);
+  std::int32_t answer = 3, status = 4;
+  double distance = 0, lower = 0, upper = 0, normal[3] = {}, on_a[3] = {}, on_b[3] = {};
+  double behind[2] = {7, 7};  // not the library's
+};
+
+TEST(InterfaceInC, ServesProgramsOfTheFirstHeader) {
+  touchstone_shape *cone = nullptr, *ball = nullptr;
+  touchstone_solver* solver = nullptr;
+  ASSERT_EQ(touchstone_cone(1, 2, &cone), TOUCHSTONE_OK);
+  ASSERT_EQ(touchstone_sphere(1, &ball), TOUCHSTONE_OK);
+  ASSERT_EQ(touchstone_solver_create(nullptr, &solver), TOUCHSTONE_OK);
+  int separated = 0, overlapping = 0;
+  for (double x = 0.5; x < 4; x += 0.25) {
+    const touchstone_pose beside = at(x);
+    FirstResult first;
+    first.struct_size = offsetof(FirstResult, behind);
+    touchstone_result result = TOUCHSTONE_RESULT_INIT;
+    for (touchstone_result* const one : {&result, reinterpret_cast<touchstone_result*>(&first)}) {
+      ASSERT_EQ(touchstone_solver_ask(solver, TOUCHSTONE_SIGNED_DISTANCE, cone, &origin, ball,
+                                      &beside, one),
+                TOUCHSTONE_OK);
+    }
+    EXPECT_EQ(first.answer, result.answer);
+    EXPECT_EQ(first.status, TOUCHSTONE_STATUS_OK);
+    EXPECT_EQ(first.distance, result.distance);
+    EXPECT_EQ(first.normal[0], result.normal[0]);
+    EXPECT_EQ(first.on_b[2], result.on_b[2]);
+    EXPECT_EQ(first.behind[0], 7);
+    EXPECT_EQ(first.behind[1], 7);
+    EXPECT_GE(result.iterations, -1);
+    separated += result.answer == TOUCHSTONE_SEPARATED;
+    overlapping += result.answer == TOUCHSTONE_OVERLAPPING;
+  }
+  EXPECT_GT(separated, 2);
+  EXPECT_GT(overlapping, 2);
+  touchstone_shape_destroy(cone);
+  touchstone_shape_destroy(ball);
+  touchstone_solver_destroy(solver);
+}
+
+TEST(InterfaceInC, WritesCertificates) {
+  touchstone_shape *box = nullptr, *cone = nullptr;
+  ASSERT_EQ(touchstone_box(1, 1, 1, &box), TOUCHSTONE_OK);
+  ASSERT_EQ(touchstone_cone(1, 0.1, &cone), TOUCHSTONE_OK);
+  const touchstone_pose beside = at(3.1);
+  char* text = nullptr;
+  ASSERT_EQ(touchstone_certificate(box, &origin, cone, &beside, &text), TOUCHSTONE_OK);
+  EXPECT_EQ(std::string(text),
+            v1::certificate({v1::Shape::box({1, 1, 1}), {}},
+                            {v1::Shape::cone(1, 0.1), v1::Pose::at({3.1, 0, 0})}));
+  EXPECT_NE(std::string(text).find("\"answer\":\"separated\""), std::string::npos);
+  EXPECT_EQ(std::string(text).find('\n'), std::string::npos);
+  touchstone_text_destroy(text);
+  touchstone_text_destroy(nullptr);
+  const touchstone_pose wrong = at(nan);
+  EXPECT_EQ(touchstone_certificate(box, &origin, cone, &wrong, &text), TOUCHSTONE_INVALID);
+  EXPECT_EQ(touchstone_certificate(box, &origin, cone, &beside, nullptr), TOUCHSTONE_INVALID);
+  touchstone_shape_destroy(box);
+  touchstone_shape_destroy(cone);
 }
 
 TEST(InterfaceInC, HasWorlds) {
@@ -125,9 +191,24 @@ TEST(InterfaceInC, RefusesWhatIsWrong) {
   ASSERT_EQ(touchstone_solver_create(nullptr, &solver), TOUCHSTONE_OK);
   ASSERT_EQ(touchstone_box(1, 1, 1, &shape), TOUCHSTONE_OK);
   touchstone_result result = TOUCHSTONE_RESULT_INIT;
-  const touchstone_pose wrong = at(nan);
+  touchstone_pose wrong = at(nan);
   EXPECT_EQ(touchstone_solver_ask(solver, 1, shape, &origin, shape, &wrong, &result),
             TOUCHSTONE_INVALID);
+  EXPECT_EQ(result.answer, TOUCHSTONE_UNKNOWN);
+  EXPECT_EQ(result.distance, 0) << "a call with an error writes nothing";
+  for (double* const number : {&wrong.rotation[0], &wrong.rotation[5], &wrong.translation[2]}) {
+    for (const double bad : {nan, std::numeric_limits<double>::infinity(), -HUGE_VAL}) {
+      wrong = at(3);
+      *number = bad;
+      EXPECT_EQ(touchstone_solver_ask(solver, 1, shape, &wrong, shape, &origin, &result),
+                TOUCHSTONE_INVALID);
+    }
+  }
+  EXPECT_EQ(last_error(),
+            "found a pose with a number that is infinite or NaN; expected finite ones");
+  // A sum that overflows is no number that is infinite.
+  touchstone_pose far = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {1.5e308, 0, 1.5e308}};
+  EXPECT_EQ(touchstone_solver_ask(solver, 0, shape, &far, shape, &far, &result), TOUCHSTONE_OK);
   EXPECT_EQ(touchstone_solver_ask(solver, 7, shape, &origin, shape, &origin, &result),
             TOUCHSTONE_INVALID);
   EXPECT_EQ(touchstone_solver_ask(solver, 1, shape, &origin, nullptr, &origin, &result),

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# install.sh BUILD CXX: installs the library into a folder that is moved afterwards, builds the examples there from
+# install.sh BUILD CXX [PYTHON]: installs the library into a folder that is moved afterwards, builds the examples there from
 # outside of the tree by CMake, and one in C by pkg-config, and runs them.
 set -euo pipefail
-build=$1 compiler=$2
+build=$1 compiler=$2 python=${3:-}
 here=$(cd "$(dirname "$0")/../../.." && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-for component in library development; do
+for component in library development ${python:+python}; do
   cmake --install "$build" --prefix "$folder/first" --component "$component" >"$folder/log"
 done
 mv "$folder/first" "$folder/prefix"  # nothing may know where it was installed first
@@ -20,6 +20,11 @@ if [[ -n $strangers ]]; then
   head <<<"$strangers"
   exit 1
 fi
+
+# Programs that were built before find what they were linked to. What is new is added to the list; nothing leaves it within a
+# version of the interface.
+nm -D --defined-only "$library" | sed 's/^[^ ]* . //' | grep -E '^(touchstone_|_Z(T[ISV])?NK?10touchstone)' | grep -v 5partsEv | LC_ALL=C sort >"$folder/symbols"
+diff "$(dirname "$0")/symbols.txt" "$folder/symbols" || { echo "the exported symbols differ from symbols.txt"; exit 1; }
 
 cp -r "$here/algorithms/api/examples" "$folder/source"
 cmake -S "$folder/source" -B "$folder/build" -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_CXX_COMPILER="$compiler" >"$folder/log" ||
@@ -48,4 +53,14 @@ if command -v pkg-config >/dev/null; then
   read -r -a flags <<<"$(pkg-config --cflags --libs touchstone)"
   cc -std=c99 -pedantic -Wall -Wextra -Werror "$folder/source/pairs_in_c.c" "${flags[@]}" -o "$folder/build/pairs_in_c"
   expect pairs_in_c 'distance 1.500'
+fi
+
+# The module finds the library by itself.
+if [[ -n $python ]]; then
+  out=$(env -u LD_LIBRARY_PATH PYTHONPATH="$folder/prefix/lib/python3/dist-packages" "$python" -c '
+import touchstone as ts
+ball = ts.Body(ts.Shape.sphere(1), ([[1, 0, 0], [0, 1, 0], [0, 0, 1]], [3, 0, 0]))
+found = ts.exact.distance(ts.Body(ts.Shape.box([1, 1, 1])), ball)
+print(found.lower, ts.verify(found.certificate), ts.check)')
+  [[ $out == "1 True <function check"* ]] || { echo "Python printed: $out"; exit 1; }
 fi

@@ -1,8 +1,16 @@
 """The Python module: the same answers as elsewhere, shapes of arrays, and what is wrong input."""
 
+import ast
+import doctest
+import inspect
+import json
 import math
+import os
+import pathlib
+import sys
 import threading
 import unittest
+from fractions import Fraction
 
 import numpy as np
 import touchstone as ts
@@ -61,6 +69,14 @@ class Pairs(unittest.TestCase):
             self.assertAlmostEqual(one.distance, result["distance"], places=6)
             seen.add(one.answer)
         self.assertLessEqual({"separated", "overlapping"}, seen)
+        again = solver.ask("signed_distance", bodies, pairs, out=results.copy())
+        for name in results.dtype.names:
+            np.testing.assert_array_equal(again[name], results[name])
+        frozen = results.copy()
+        frozen.setflags(write=False)
+        for out in (frozen, results[:-1], np.repeat(results, 2)[::2], np.zeros(1000), results.tolist(), results[:, None]):
+            with self.assertRaisesRegex(ts.Error, "out"):
+                solver.ask("signed_distance", bodies, pairs, out=out)
         poses[:, 0, 3] += 1
         bodies.move(poses)
         np.testing.assert_allclose(solver.ask("distance", bodies, pairs)["distance"],
@@ -166,6 +182,178 @@ class Worlds(unittest.TestCase):
         self.assertEqual(world.ray([0, 0, 0], [-1, 0, 0])[0], ball)
         self.assertEqual(world.body(ball).shape.kind, "sphere")
         self.assertRaises(ts.Error, world.insert, ts.Shape.halfspace([0, 0, 1], 0))
+
+
+class Shapes(unittest.TestCase):
+    def test_parameters_make_the_same_shape(self):
+        points = np.random.default_rng(3).normal(size=(30, 3))
+        shapes = [ts.Shape.sphere(1), ts.Shape.capsule(1, 2), ts.Shape.box([1, 2, 3]), ts.Shape.cylinder(1, 2),
+                  ts.Shape.cone(1, 2), ts.Shape.ellipsoid([1, 2, 3]), ts.Shape.hull(points),
+                  ts.Shape.halfspace([0, 0, 2], 1)]
+        for shape in shapes:
+            again = getattr(ts.Shape, shape.kind)(**shape.parameters)
+            self.assertEqual(repr(again.parameters), repr(shape.parameters))
+        self.assertEqual(shapes[6].parameters["points"].shape[1], 3)
+        body = ts.Body(shapes[0], at(1, 2, 3))
+        body.pose[:] = 0  # a copy
+        np.testing.assert_array_equal(body.pose, at(1, 2, 3))
+
+    def test_arrays_of_any_layout_are_read(self):
+        box = ts.Shape.box([1, 2, 3])
+        pose = at(4, 5, 6)
+        pose[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+        wide = np.zeros((8, 8))
+        wide[::2, ::2] = pose
+        frozen = pose.copy()
+        frozen.setflags(write=False)
+        for same in (np.asfortranarray(pose), wide[::2, ::2], pose[::-1][::-1], frozen, pose.tolist(),
+                     pose.astype(np.float32), pose.astype(int), pose.astype(">f8"), pose.astype(np.float16)):
+            np.testing.assert_array_equal(ts.Body(box, same).pose, pose)
+        points = np.random.default_rng(4).normal(size=(3, 20))
+        np.testing.assert_array_equal(ts.Shape.hull(points.T).parameters["points"],
+                                      ts.Shape.hull(points.T.copy()).parameters["points"])
+        world = ts.World()
+        boxes = np.array([[0, 0, 0, 1, 1, 1], [1, 1, 1, 2, 2, 2]], dtype=np.float32)
+        self.assertEqual(len(world.insert_boxes(boxes[::-1])), 2)
+        self.assertEqual(len(world.insert_boxes(np.asfortranarray(boxes))), 2)
+
+    def test_what_no_array_of_numbers_is_ends_well(self):
+        box, world = ts.Shape.box([1, 2, 3]), ts.World()
+        wrong = [None, "x", object(), [], [[]], np.zeros((3, 4)), np.zeros((4, 4, 1)), np.zeros((0, 4)), [1, 2], np.nan,
+                 np.full((4, 4), "a"), np.array([object()] * 3), {"a": 1}, np.full(3, np.nan), np.array([1, 2, np.inf])]
+        for one in wrong:
+            for call in (ts.Shape.box, ts.Shape.ellipsoid, ts.Shape.hull, lambda x: ts.Shape.halfspace(x, 1),
+                         lambda x: ts.Bodies([box], x, np.zeros((1, 4, 4))), lambda x: ts.Bodies([box], [0], x),
+                         lambda x: world.ray(x, [1, 0, 0]), lambda x: world.ray([0, 0, 0], x),
+                         lambda x: ts.Body(box, (x, [0, 0, 0])), lambda x: ts.Body(box, (np.eye(3), x))):
+                try:
+                    call(one)
+                except (ts.Error, TypeError):
+                    continue
+                self.assertIn(str(one), ("[]", "[nan nan nan]", "[ 1.  2. inf]"))  # no bodies; checked when it is asked
+        for pose in (np.full((4, 4), np.nan), (np.eye(3), [0, 0, np.inf])):
+            with self.assertRaisesRegex(ts.Error, "infinite or NaN"):
+                ts.distance(ts.Body(box, pose), ts.Body(box))
+        for call in (lambda: ts.Shape.sphere("x"), lambda: ts.distance(box, box), lambda: ts.World(threads=0),
+                     lambda: ts.Body(None), lambda: ts.Solver().prepare([None])):
+            self.assertRaises((ts.Error, TypeError), call)
+        self.assertEqual(len(world), 0)
+
+
+class Proofs(unittest.TestCase):
+    def test_exact_answers(self):
+        random = np.random.default_rng(5)
+        shapes = [ts.Shape.sphere(0.5), ts.Shape.capsule(0.25, 1), ts.Shape.box([0.3, 0.4, 0.5]), ts.Shape.cylinder(0.5, 1),
+                  ts.Shape.cone(1, 0.5), ts.Shape.ellipsoid([1, 0.5, 0.25]), ts.Shape.hull(random.normal(size=(12, 3)))]
+        solver, seen = ts.Solver("certified"), set()
+        for i in range(60):
+            a, b = (ts.Body(shapes[k], at(*random.uniform(-1.5, 1.5, 3))) for k in random.integers(0, 7, 2))
+            found, close = ts.exact.distance(a, b), solver.signed_distance(a, b)
+            self.assertTrue(ts.verify(found.certificate))
+            self.assertEqual(found.answer, close.answer)
+            self.assertLessEqual(found.lower, found.upper)
+            self.assertAlmostEqual(float(found), close.distance, places=6)
+            self.assertLessEqual(close.lower, found.upper)
+            self.assertGreaterEqual(close.upper, found.lower)
+            seen.add(found.answer)
+        self.assertLessEqual({"separated", "overlapping"}, seen)
+
+    def test_fractions_are_exact(self):
+        third = ts.Body(ts.Shape.sphere(1 / 3), at(3))
+        found = ts.exact.distance(ts.Body(ts.Shape.sphere(0.1)), third)
+        self.assertTrue(found.is_exact)
+        self.assertEqual(found.lower, 3 - Fraction(0.1) - Fraction(1 / 3))
+        plane = ts.Body(ts.Shape.halfspace([0, 0, 1], 0))
+        self.assertEqual(ts.exact.distance(plane, ts.Body(ts.Shape.sphere(1), at(0, 0, 4))).lower, 3)
+        self.assertEqual(ts.exact.distance(plane, plane).upper, -math.inf)
+        touching = ts.exact.distance(ts.Body(ts.Shape.box([1, 1, 1])), ts.Body(ts.Shape.box([1, 1, 1]), at(2)))
+        self.assertEqual((touching.answer, touching.lower), ("touching", 0))
+
+    def test_a_forged_proof_is_refused(self):
+        found = ts.exact.distance(ts.Body(ts.Shape.box([1, 1, 1])), ts.Body(ts.Shape.sphere(1), at(4, 1, 1)))
+        forged = json.loads(found.certificate)
+        forged["lower"]["numerator"] = str(int(forged["lower"]["numerator"]) + 1)
+        with self.assertRaisesRegex(ts.Error, "the direction does not prove the lower bound"):
+            ts.verify(json.dumps(forged))
+        moved = json.loads(found.certificate)
+        moved["b"]["translation"][0] += 1
+        self.assertRaises(ts.Error, ts.verify, json.dumps(moved))
+        for wrong in ("", "{}", "[]", "null", found.certificate[:-1], 3, None):
+            self.assertRaises(ts.Error, ts.verify, wrong)
+        if hasattr(sys, "get_int_max_str_digits"):
+            self.assertGreater(sys.get_int_max_str_digits(), 0)  # as it was
+
+
+class Balls:
+    """Right on balls, but for a planted fault."""
+
+    def __init__(self, fault=None):
+        self.fault = fault
+
+    def distance(self, a, b):
+        if {a.shape.kind, b.shape.kind} != {"sphere"}:
+            return None
+        if self.fault == "raises":
+            raise RuntimeError("planted")
+        radii = a.shape.parameters["radius"] + b.shape.parameters["radius"]
+        gap = float(np.linalg.norm(b.pose[:3, 3] - a.pose[:3, 3])) - radii
+        return gap + 0.1 if self.fault == "off" else gap
+
+
+@unittest.skipUnless(os.environ.get("TOUCHSTONE"), "the program is not built")
+class OnesOwn(unittest.TestCase):
+    def test_is_graded(self):
+        options = {"cases": 12, "groups": ["gap", "depth"], "shapes": ["sphere"]}
+        grades = ts.check(Balls(), **options)
+        self.assertGreater(grades.counts["right"], 3)
+        self.assertEqual((grades.wrong, grades.errors), ([], []))
+        self.assertIn("balls@1", str(grades))
+        grades = ts.check(Balls("off"), **options)
+        self.assertGreater(len(grades.wrong), 0)
+        self.assertEqual(grades.wrong[0]["algorithm"], "balls@1")
+        grades = ts.check(Balls("raises"), **options)
+        self.assertEqual(set(grades.counts), {"gave_up"})
+        self.assertIn("RuntimeError: planted", grades.errors[0])
+        self.assertEqual(len(grades.errors), len(grades.rows))
+
+    def test_a_solver_is_graded(self):
+        grades = ts.check(ts.Solver("certified"), cases=3, groups=["gap"])
+        self.assertGreater(grades.counts["right"], 20)
+        self.assertEqual((grades.wrong, grades.errors), ([], []))
+
+    def test_what_is_wrong(self):
+        with self.assertRaisesRegex(ts.Error, "without methods"):
+            ts.check(object())
+        with self.assertRaisesRegex(ts.Error, "no-such"):
+            ts.check(Balls(), groups=["no-such"])
+        with self.assertRaisesRegex(ts.Error, "/none: No such file"):
+            ts.check(Balls(), program="/none")
+
+
+class Documents(unittest.TestCase):
+    def test_examples_are_true(self):
+        for module in (ts, ts.exact):
+            found = doctest.testmod(module)
+            self.assertEqual(found.failed, 0)
+            self.assertGreater(found.attempted, 3)
+
+    def test_stubs_name_what_is_there(self):
+        stub = ast.parse((pathlib.Path(ts.__file__).parent / "__init__.pyi").read_text())
+        named = {}
+        for node in stub.body:
+            if isinstance(node, ast.ClassDef):
+                named[node.name] = {part.name for part in node.body if isinstance(part, ast.FunctionDef)}
+            elif isinstance(node, ast.FunctionDef):
+                named[node.name] = None
+        for name, parts in named.items():
+            there = getattr(ts, name)
+            if parts is not None and not issubclass(there, Exception):
+                public = {part for part in vars(there) if not part.startswith("_")}
+                self.assertEqual(public, {part for part in parts if not part.startswith("_")}, name)
+        documented = [name for name in ts.__all__ if callable(getattr(ts, name))]
+        self.assertLessEqual(set(documented) - {"Grades", "check", "verify"}, set(named))
+        for name in documented:
+            self.assertTrue(inspect.getdoc(getattr(ts, name)), name)
 
 
 if __name__ == "__main__":

@@ -149,6 +149,45 @@ TEST_F(ModuleFiles, AModuleIsTimedBesideOthers) {
   EXPECT_THAT(ran.text, HasSubstr("YOURS     mine-boxes"));
 }
 
+TEST_F(ModuleFiles, AdviceTriesAModule) {
+  const std::string file = module_with("none");
+  ran = run_program("advise " + scene() +
+                    " --front --no-figure --threads 1 --frames 1 --seconds 1 --with " + file +
+                    " --out " + path("trade"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  std::set<std::string> tried;
+  for (const auto& row : read_rows(path("trade/points.csv"), {"broad", "narrow"}))
+    tried.insert(row.begin(), row.end());
+  EXPECT_THAT(tried, Contains("mine-boxes"));
+  EXPECT_THAT(tried, Contains("mine-spheres"));
+  // Its file of the work names the module.
+  EXPECT_THAT(files::read_text(path("trade/trade.toml")),
+              HasSubstr("modules = [\"" + file + "\"]"));
+  ran = run_program("run " + path("trade/trade.toml") + " --out " + path("again"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_THAT(read_rows(path("again/points.csv"), {"broad"}), Contains(ElementsAre("mine-boxes")));
+  expect_refusal("advise " + scene() + " --max-error 0 --with gjk --out " + path("no"),
+                 "--with: found 'gjk'; expected the file of a module", folder);
+}
+
+TEST_F(ModuleFiles, APageShowsAModule) {
+  const std::string file = module_with("none");
+  files::write_text(path("page.html"), "<!--BUNDLE-->");
+  ran = run_program("report --scene " + scene() + " --frames 1 --page " + path("page.html") +
+                    " --with " + file + " --out " + path("report.html"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  files::write_text(path("unpack.py"),
+                    "import base64, re, sys, zlib\n"
+                    "packed = re.search('[A-Za-z0-9+/=]{200,}', open(sys.argv[1]).read())[0]\n"
+                    "print(zlib.decompress(base64.b64decode(packed)).decode())\n");
+  ran = run_shell("python3 " + path("unpack.py") + " " + path("report.html"));
+  EXPECT_THAT(ran.text, HasSubstr("\"mine-spheres\":\"module\""));
+  const std::string kinds = compiled_module(folder.path(), "kinds.cpp", "kinds", "-O1");
+  expect_refusal("report --scene " + scene() + " --page " + path("page.html") + " --with " + kinds +
+                     " --out " + path("no.html"),
+                 "has neither narrow nor broad phases", folder);
+}
+
 TEST_F(ModuleFiles, ACampaignNamesModules) {
   module_with("none");
   scene();

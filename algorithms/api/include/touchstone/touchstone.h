@@ -84,11 +84,10 @@ typedef struct touchstone_result {
   double normal[3];    /* unit vector from a to b */
   double on_a[3];      /* the closest points; of overlapping bodies on_a - on_b = depth * normal */
   double on_b[3];
+  int32_t iterations, support_calls; /* -1: not counted */
 } touchstone_result;
-#define TOUCHSTONE_RESULT_INIT                                                  \
-  {                                                                             \
-    sizeof(touchstone_result), 3, 4, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, { 0, 0, 0 } \
-  }
+#define TOUCHSTONE_RESULT_INIT \
+  { sizeof(touchstone_result), 3, 4, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, -1, -1 }
 
 typedef struct touchstone_cast_result {
   size_t struct_size; /* set by the caller */
@@ -191,6 +190,14 @@ TOUCHSTONE_API int touchstone_solver_cast(
     const touchstone_motion* motion_a, const touchstone_shape* shape_b,
     const touchstone_pose* pose_b, const touchstone_motion* motion_b,
     touchstone_cast_result* result);
+
+/* The exact answer about a pair and its proof, which whoever multiplies fractions can verify: one line of JSON in the
+ * format of results/certificates.md, without a line break. The caller destroys it. */
+TOUCHSTONE_API int touchstone_certificate(const touchstone_shape* shape_a,
+                                          const touchstone_pose* pose_a,
+                                          const touchstone_shape* shape_b,
+                                          const touchstone_pose* pose_b, char** text);
+TOUCHSTONE_API void touchstone_text_destroy(char* text); /* may be NULL */
 
 /* Worlds: bodies, and which of their boxes overlap. Pairs are those of the last update; rays meet the bodies where
  * they are now. A body with a shape has the least box around it; one without is its box (minimum, then maximum), and

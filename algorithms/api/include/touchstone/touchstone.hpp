@@ -110,6 +110,9 @@ TOUCHSTONE_NAMESPACE_V1 {
     static Shape halfspace(const Vec3& normal, double offset);
 
     Kind kind() const;
+    // What the function of its kind was given, in its order, a vector as three numbers: {radius, half_length} of a
+    // capsule. Of a hull the vertices, one behind the other; points that are none may be missing.
+    std::vector<double> numbers() const;
 
     struct Data;  // Touchstone's own
     // Null after this shape was moved from.
@@ -203,8 +206,8 @@ TOUCHSTONE_NAMESPACE_V1 {
   //    then on they cost a look into a table.
   //  - Another shape is prepared at the first call that meets it, and with it the others that were met so:
   //    microseconds. When more than 64 were met, all these are forgotten, and met again.
-  // A call with shapes that its algorithm has prepared allocates no memory. It costs the algorithm's time, two copies of a pose and one of the
-  // result.
+  // A call with shapes that its algorithm has prepared allocates no memory. It costs the algorithm's time, a look at each shape and a
+  // copy of each pose.
   class TOUCHSTONE_API Solver {
    public:
     // Throws if there is no algorithm of that name, with all names.
@@ -250,6 +253,11 @@ TOUCHSTONE_NAMESPACE_V1 {
   TOUCHSTONE_API Result signed_distance(const Body& a, const Body& b);
   TOUCHSTONE_API CastResult cast(const Body& a, const Motion& motion_a, const Body& b,
                                  const Motion& motion_b);
+
+  // The exact answer about the bodies and its proof, which whoever multiplies fractions can verify: one line of JSON
+  // in the format of results/certificates.md, without a line break. The bounds in it are on the distance of the
+  // bodies without their balls. Tenths of a millisecond for simple bodies, more for hulls of many points.
+  TOUCHSTONE_API std::string certificate(const Body& a, const Body& b);
 
   // Names for SolverOptions and WorldOptions. `kind` is "pair", "cast" or "box".
   TOUCHSTONE_API std::vector<std::string> algorithm_names(std::string_view kind);

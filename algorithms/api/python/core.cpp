@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <touchstone/touchstone.hpp>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -75,18 +76,35 @@ struct Bodies {
   }
 };
 
+// Returns the array, or a new one. A new one costs more than many answers: its pages come from the system.
+py::array room_for(std::size_t count, const py::dtype& dtype, const py::object& given) {
+  if (given.is_none()) return py::array(dtype, std::vector<std::size_t>{count});
+  if (!py::isinstance<py::array>(given))
+    throw ts::Error("found no array as out; expected what ask returned");
+  const auto array = py::reinterpret_borrow<py::array>(given);
+  const bool fits = array.dtype().equal(dtype) && array.ndim() == 1 &&
+                    array.shape(0) == static_cast<py::ssize_t>(count) && array.writeable() &&
+                    (array.flags() & py::array::c_style) != 0;
+  if (fits) return array;
+  throw ts::Error("found out of the shape " + shape_text(array) +
+                  "; expected an array for writing, without gaps, with the fields of ask and the "
+                  "length " +
+                  std::to_string(count));
+}
+
 py::array ask_many(ts::Solver& solver, const std::string& question, const Bodies& bodies,
-                   const py::object& rows) {
+                   const py::object& rows, const py::object& out) {
   const auto pairs = integers_of<Places>(rows, "pairs");
   check(pairs, {-1, 2}, "pairs");
   static const auto& dtype = *new py::dtype(result_dtype());  // Python ends before statics do
   const auto count = static_cast<std::size_t>(pairs.shape(0));
-  static_assert(sizeof(ts::IndexPair) == 2 * sizeof(std::uint32_t));
-  std::vector<ts::IndexPair> asked(count);
-  if (count != 0) std::memcpy(asked.data(), pairs.data(), count * sizeof(ts::IndexPair));
-  std::vector<ts::Result> results(count);
-  solver.ask(question_of(question), bodies.bodies, asked, results);
-  return {dtype, {count}, {}, results.data()};  // a copy
+  static_assert(sizeof(ts::IndexPair) == 2 * sizeof(std::uint32_t) &&
+                std::is_trivially_copyable_v<ts::Result>);
+  py::array results = room_for(count, dtype, out);
+  solver.ask(question_of(question), bodies.bodies,
+             std::span(reinterpret_cast<const ts::IndexPair*>(pairs.data()), count),
+             std::span(static_cast<ts::Result*>(results.mutable_data()), count));
+  return results;
 }
 
 std::uint64_t number(const ts::Handle& handle) {
@@ -191,6 +209,41 @@ constexpr std::array<const char*, 3> cast_answers = {"hit", "miss", "unknown"};
 constexpr std::array<const char*, 8> kinds = {"sphere", "capsule",   "box",  "cylinder",
                                               "cone",   "ellipsoid", "hull", "halfspace"};
 
+// The arguments of the function of its kind, by their names.
+py::dict parameters_of(const ts::Shape& shape) {
+  const std::vector<double> numbers = shape.numbers();
+  const auto vector = [&] { return py::array_t<double>(3, numbers.data()); };
+  py::dict named;
+  switch (shape.kind()) {
+    case ts::Kind::sphere: named["radius"] = numbers[0]; break;
+    case ts::Kind::capsule:
+    case ts::Kind::cylinder:
+    case ts::Kind::cone:
+      named["radius"] = numbers[0];
+      named["half_length"] = numbers[1];
+      break;
+    case ts::Kind::box: named["half_extents"] = vector(); break;
+    case ts::Kind::ellipsoid: named["radii"] = vector(); break;
+    case ts::Kind::hull:
+      named["points"] = py::array_t<double>({numbers.size() / 3, std::size_t{3}}, numbers.data());
+      break;
+    case ts::Kind::halfspace:
+      named["normal"] = vector();
+      named["offset"] = numbers[3];
+      break;
+  }
+  return named;
+}
+
+py::array_t<double> matrix_of(const ts::Pose& pose) {
+  py::array_t<double> matrix({4, 4});
+  const ts::Vec3 &x = pose.x_axis, &y = pose.y_axis, &z = pose.z_axis, &t = pose.translation;
+  const std::array rows = {x.x, y.x, z.x, t.x, x.y, y.y, z.y, t.y,
+                           x.z, y.z, z.z, t.z, 0.,  0.,  0.,  1.};
+  std::copy(rows.begin(), rows.end(), matrix.mutable_data());
+  return matrix;
+}
+
 std::string result_text(const ts::Result& result) {
   return "Result(answer='" + std::string(word_of(result.answer, answers)) + "', status='" +
          word_of(result.status, statuses) + "', distance=" + std::to_string(result.distance) + ")";
@@ -198,13 +251,9 @@ std::string result_text(const ts::Result& result) {
 
 }  // namespace
 
-PYBIND11_MODULE(touchstone, module) {
-  module.doc() =
-      "Collision queries of convex bodies in 3D. Lengths are metres and angles radians; answers "
-      "are in the world's "
-      "frame. A pose is None, an array (4, 4), or a tuple of a rotation (3, 3) and a translation "
-      "(3,). Wrong "
-      "arguments raise touchstone.Error.";
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "What of the package touchstone is in C++.";
+  module.attr("__name__") = "touchstone";  // where users find its classes
   py::register_exception<ts::Error>(module, "Error", PyExc_ValueError);
   module.attr("__version__") = ts::version();
   module.attr("ANSWERS") = py::tuple(py::cast(answers));
@@ -243,8 +292,14 @@ PYBIND11_MODULE(touchstone, module) {
           },
           py::arg("normal"), py::arg("offset"),
           "The points p with normal . p <= offset. normal: (3,)")
-      .def_property_readonly("kind",
-                             [](const ts::Shape& shape) { return word_of(shape.kind(), kinds); })
+      .def_property_readonly(
+          "kind", [](const ts::Shape& shape) { return word_of(shape.kind(), kinds); },
+          "'sphere', 'capsule', 'box', 'cylinder', 'cone', 'ellipsoid', 'hull' "
+          "or 'halfspace'")
+      .def_property_readonly(
+          "parameters", &parameters_of,
+          "The arguments of the function of its kind, a dictionary. Of a hull the "
+          "vertices (n, 3); points that are none may be missing.")
       .def("__repr__", [](const ts::Shape& shape) {
         return "<touchstone.Shape " + std::string(word_of(shape.kind(), kinds)) + ">";
       });
@@ -255,6 +310,8 @@ PYBIND11_MODULE(touchstone, module) {
            }),
            py::arg("shape"), py::arg("pose") = py::none())
       .def_readonly("shape", &ts::Body::shape)
+      .def_property_readonly(
+          "pose", [](const ts::Body& body) { return matrix_of(body.pose); }, "(4, 4), a copy")
       .def(
           "move", [](ts::Body& body, const py::object& pose) { body.pose = pose_of(pose); },
           py::arg("pose"));
@@ -285,7 +342,7 @@ PYBIND11_MODULE(touchstone, module) {
            })
       .def("__repr__", &result_text);
 
-  py::class_<ts::CastResult>(module, "CastResult")
+  py::class_<ts::CastResult>(module, "CastResult", "What Solver.cast found.")
       .def_property_readonly(
           "answer", [](const ts::CastResult& r) { return word_of(r.answer, cast_answers); },
           "'hit', 'miss' or 'unknown'")
@@ -323,17 +380,22 @@ PYBIND11_MODULE(touchstone, module) {
       .def(
           "prepare",
           [](ts::Solver& solver, const std::vector<ts::Shape>& shapes) { solver.prepare(shapes); },
-          py::arg("shapes"))
-      .def("intersects", &ts::Solver::intersects, py::arg("a"), py::arg("b"))
-      .def("distance", asks(ts::Question::distance), py::arg("a"), py::arg("b"))
-      .def("penetration", asks(ts::Question::penetration), py::arg("a"), py::arg("b"))
-      .def("signed_distance", asks(ts::Question::signed_distance), py::arg("a"), py::arg("b"))
+          py::arg("shapes"),
+          "Keeps what algorithms prepare for these, in place of those of the last call.")
+      .def("intersects", &ts::Solver::intersects, py::arg("a"), py::arg("b"),
+           "Whether the bodies share a point.")
+      .def("distance", asks(ts::Question::distance), py::arg("a"), py::arg("b"),
+           "As touchstone.distance.")
+      .def("penetration", asks(ts::Question::penetration), py::arg("a"), py::arg("b"),
+           "As touchstone.penetration.")
+      .def("signed_distance", asks(ts::Question::signed_distance), py::arg("a"), py::arg("b"),
+           "As touchstone.signed_distance.")
       .def("ask", &ask_many, py::arg("question"), py::arg("bodies"), py::arg("pairs"),
+           py::arg("out") = py::none(),
            "Answers each row of pairs (m, 2), two places in bodies: an array (m,) with the fields "
-           "answer (place in "
-           "ANSWERS), status (in STATUSES), distance, lower, upper, normal, on_a, on_b. question: "
-           "'intersect', "
-           "'distance', 'penetration' or 'signed_distance'.")
+           "answer (place in ANSWERS), status (in STATUSES), distance, lower, upper, normal, on_a, "
+           "on_b. question: 'intersect', 'distance', 'penetration' or 'signed_distance'. out: an "
+           "array that an earlier call returned, to write into; it saves the memory of a new one.")
       .def(
           "cast",
           [](ts::Solver& solver, const ts::Body& a, const Doubles& by_a, const ts::Body& b,
@@ -346,17 +408,23 @@ PYBIND11_MODULE(touchstone, module) {
 
   module.def(
       "intersects", [](const ts::Body& a, const ts::Body& b) { return ts::intersects(a, b); },
-      py::arg("a"), py::arg("b"));
+      py::arg("a"), py::arg("b"),
+      "Whether the bodies share a point. Raises touchstone.Error where no algorithm could decide.");
   module.def(
       "distance", [](const ts::Body& a, const ts::Body& b) { return ts::distance(a, b); },
-      py::arg("a"), py::arg("b"));
+      py::arg("a"), py::arg("b"),
+      "The gap between bodies that are apart, in metres, with the closest points; else the answer "
+      "alone.");
   module.def(
       "penetration", [](const ts::Body& a, const ts::Body& b) { return ts::penetration(a, b); },
-      py::arg("a"), py::arg("b"));
+      py::arg("a"), py::arg("b"),
+      "The depth of bodies that overlap, as a negative distance in metres; else the answer alone.");
   module.def(
       "signed_distance",
       [](const ts::Body& a, const ts::Body& b) { return ts::signed_distance(a, b); }, py::arg("a"),
-      py::arg("b"));
+      py::arg("b"), "The gap, or minus the depth, in metres.");
+  module.def("certificate", &ts::certificate, py::arg("a"), py::arg("b"),
+             "The line of JSON of touchstone.exact.");
   module.def("algorithm_names", &ts::algorithm_names, py::arg("kind"),
              "kind: 'pair', 'cast' or 'box'");
 
