@@ -273,11 +273,11 @@ void check_options(const kinds::Kind& kind, const kinds::QuestionInput& input) {
 
 kinds::QuestionInput input_of(const QueryOptions& options) {
   modules::load_named(options.names);
-  kinds::QuestionInput input = {
-      .file = options.file,
-      .names = kinds::split_names(joined_names(options.names, start_peers(options.peers, options.repeat))),
-      .task = options.task,
-      .time_limit = options.time_limit};
+  kinds::QuestionInput input = {.file = options.file,
+                                .names = kinds::split_names(joined_names(
+                                    options.names, start_peers(options.peers, options.repeat))),
+                                .task = options.task,
+                                .time_limit = options.time_limit};
   for (const auto& [name, option] : options.of_kinds) {
     if (!option.given()) continue;
     const auto text = options.texts.find(name);

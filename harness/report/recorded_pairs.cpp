@@ -108,7 +108,8 @@ OrderedJson recorded_pair_views(const std::filesystem::path& folder, double time
     recorded.push_back(recorded_of(line, cases[recorded.size()]));
   });
   std::vector<ListedCase> listed;
-  for (const files::Case& c : cases) listed.push_back({.c = c, .file = file.filename().string(), .about = c.id});
+  for (const files::Case& c : cases)
+    listed.push_back({.c = c, .file = file.filename().string(), .about = c.id});
   OrderedJson views = case_views(listed, folder, time_limit);
   for (std::size_t i = 0; i < recorded.size(); ++i) views[i]["recorded"] = std::move(recorded[i]);
   return views;
