@@ -62,7 +62,10 @@ class BoxPeer final : public BroadPhase {
     try {
       const files::JsonNode node(name, 0, answer);
       const double count = known_number(node, "pairs");
-      if (std::isnan(count)) return {known_status(node), 0};
+      if (std::isnan(count)) {
+        const Status status = known_status(node);
+        return {status == Status::not_reported ? Status::unsupported : status, 0};
+      }
       const double n = static_cast<double>(boxes_.size());
       const double most =
           std::min(n * (n - 1) / 2, static_cast<double>(most_bytes / sizeof(IndexPair)));

@@ -23,6 +23,9 @@
 namespace touchstone::kinds {
 namespace {
 
+// An id as a comment may have it: in ASCII, for JavaScript ends a comment at other line breaks as well.
+std::string in_comment(const std::string& id) { return files::Json(id).dump(-1, ' ', true); }
+
 // What a test expects, as its text has it.
 struct ExpectedAnswer {
   int side = 0;                                  // 1 separated, -1 overlapping, 0 either
@@ -278,8 +281,7 @@ std::string script_reproducer(std::string_view algorithm, std::span<const files:
       text += script_case(test, c, task, oracle);
       has_case = true;
     } else {
-      text +=
-          fmt::format("{} Case {} is left out: {}.\n", mark, files::Json(c.id).dump(), left_out);
+      text += fmt::format("{} Case {} is left out: {}.\n", mark, in_comment(c.id), left_out);
     }
   }
   if (!has_case) {
@@ -327,7 +329,7 @@ std::string reproducer(std::string_view algorithm, std::span<const files::Case> 
     const grade::EncodedPair pair(c, Encoding::as_given);
     left_out = lack(*test, *library, c, pair);
     if (!left_out.empty()) {
-      text += fmt::format("  // Case {} is left out: {}.\n", files::Json(c.id).dump(), left_out);
+      text += fmt::format("  // Case {} is left out: {}.\n", in_comment(c.id), left_out);
       continue;
     }
     ++number;

@@ -7,7 +7,8 @@
 namespace touchstone::kinds {
 namespace {
 
-constexpr std::string_view mujoco_python = R"test(import sys
+constexpr std::string_view mujoco_python = R"test(import math
+import sys
 
 import mujoco
 import numpy as np
@@ -194,7 +195,9 @@ constexpr std::string_view python_end = R"test(
 failures = 0
 for case in cases:
     found, exact = signed_distance(case["a"], case["b"]), case["number"]
-    is_asked = case["has_distance"] if found > 0 else case["has_depth"]
+    # No number at all is that of bodies that are apart.
+    apart = exact > 0 if math.isnan(found) else found > 0
+    is_asked = case["has_distance"] if apart else case["has_depth"]
     what = ""
     if case["side"] and (found <= 0) != (exact < 0):
         what = "no contact of bodies that overlap" if exact < 0 else "contact of bodies that are apart"
@@ -210,7 +213,9 @@ constexpr std::string_view javascript_end = R"test(
 let failures = 0;
 for (const { id, a, b, side, number: exact, tolerance, has_distance, has_depth } of cases) {
   const found = signed_distance(a, b);
-  const is_asked = found > 0 ? has_distance : has_depth;
+  // No number at all is that of bodies that are apart.
+  const is_apart = Number.isNaN(found) ? exact > 0 : found > 0;
+  const is_asked = is_apart ? has_distance : has_depth;
   let what = '';
   if (side !== 0 && (found <= 0) !== (exact < 0)) {
     what = exact < 0 ? 'no contact of bodies that overlap' : 'contact of bodies that are apart';
