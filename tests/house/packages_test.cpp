@@ -1,4 +1,5 @@
-// Rules of packages from npm: each is locked by its hash, and no script of one runs when it is installed.
+// Rules of packages. Those from npm are locked by their hashes, and no script of one runs when it is installed. Those from
+// Debian are in the table of licences.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -87,6 +88,45 @@ TEST(Packages, RunNoScriptsWhenTheyAreInstalled) {
     EXPECT_EQ(text.find("npm install"), std::string::npos) << file << " installs without a lock";
   }
   EXPECT_GT(lines, 7U);
+}
+
+// Finds the names behind each match of `from`, and expects them in the table.
+std::size_t expect_licences(const std::string& table, const fs::path& file,
+                            const std::regex& from) {
+  static const std::regex word("[a-z0-9.+-]+");
+  std::size_t packages = 0;
+  const std::string text = content_of(file);
+  for (std::sregex_iterator at(text.begin(), text.end(), from), end; at != end; ++at) {
+    const std::string names = (*at)[1];
+    for (std::sregex_iterator one(names.begin(), names.end(), word); one != end; ++one) {
+      ++packages;
+      EXPECT_NE(table.find("\n" + one->str() + ","), std::string::npos)
+          << one->str() << " of " << file << " is not in harness/packaging/packages.csv";
+    }
+  }
+  return packages;
+}
+
+TEST(Packages, HaveALicence) {
+  const std::string table = content_of(whole_tree / "harness/packaging/packages.csv");
+  EXPECT_GT(expect_licences(table, whole_tree / "touchstone",
+                            std::regex("\n  '([a-z0-9.+-]+) +(?:header:|program:|matplotlib)")),
+            30U);
+  std::size_t named = 0;
+  for (const char* folder : {"algorithms", "harness", "tests"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(whole_tree / folder)) {
+      if (entry.path().filename() != "CMakeLists.txt") continue;
+      named += expect_licences(table, entry.path(), std::regex(R"(\(Debian: ([a-z0-9.+, -]+)\))"));
+    }
+  }
+  EXPECT_GT(named, 5U);
+  std::size_t of_adapters = 0;
+  for (const auto& entry : fs::directory_iterator(whole_tree / "datasets/adapters")) {
+    if (!fs::exists(entry.path() / "peer.toml")) continue;
+    of_adapters += expect_licences(table, entry.path() / "peer.toml",
+                                   std::regex(R"re(\ninstall = "apt-get install ([^"]+)")re"));
+  }
+  EXPECT_GT(of_adapters, 1U);
 }
 
 }  // namespace

@@ -100,35 +100,4 @@ TEST(Pages, ResultsAreOnTheirPageAndSmall) {
   EXPECT_LE(bytes, 20'000'000u);
 }
 
-// Each package that the launcher or a page installs has its licence in the table.
-TEST(Packages, HaveALicence) {
-  const std::string table = text_of(root / "harness/packaging/packages.csv");
-  const auto expect_listed = [&](const std::string& package, const fs::path& file) {
-    EXPECT_NE(table.find("\n" + package + ","), std::string::npos) << package << " of " << file;
-  };
-  std::size_t of_launcher = 0;
-  const std::regex entry("\n  '([a-z0-9.+-]+) +(?:header:|program:|matplotlib)");
-  const std::string launcher = text_of(root / "touchstone");
-  for (std::sregex_iterator at(launcher.begin(), launcher.end(), entry), end; at != end; ++at) {
-    expect_listed((*at)[1], "touchstone");
-    ++of_launcher;
-  }
-  EXPECT_GT(of_launcher, 30u);
-  const std::regex named(R"(\(Debian: `?([a-z0-9.+ -]+)`?\))"), word("[^ ]+");
-  for (const char* ending : {".txt", ".md", ".json"}) {
-    for (const char* folder : {"algorithms", "harness", "tests", "datasets", "plots"}) {
-      for (const fs::path& file : files_below(folder, ending)) {
-        const std::string text = text_of(root / file);
-        for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {
-          const std::string packages = (*at)[1];
-          for (std::sregex_iterator one(packages.begin(), packages.end(), word); one != end;
-               ++one) {
-            expect_listed(one->str(), file);
-          }
-        }
-      }
-    }
-  }
-}
-
 }  // namespace
