@@ -1,5 +1,8 @@
 // Solver: finds the shapes of a pair among those that it knows, and asks the algorithm of their kinds.
 #include <array>
+#include <cstdint>
+#include <cstring>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -20,7 +23,7 @@ static_assert(static_cast<int>(Question::intersect) == static_cast<int>(Task::in
                   static_cast<int>(Task::signed_distance));
 Task inner(Question question) { return static_cast<Task>(question); }
 
-// A new result is a new outcome, byte for byte, so that an algorithm writes it in place.
+// A result is an outcome, byte for byte, so that an algorithm writes it in place.
 static_assert(sizeof(Result) == sizeof(Outcome) && alignof(Result) == alignof(Outcome) &&
               offsetof(Result, answer) == offsetof(Outcome, answer) &&
               offsetof(Result, status) == offsetof(Outcome, status) &&
@@ -32,19 +35,24 @@ static_assert(sizeof(Result) == sizeof(Outcome) && alignof(Result) == alignof(Ou
               static_cast<int>(Answer::unknown) == static_cast<int>(touchstone::Answer::unknown) &&
               static_cast<int>(Status::unsupported) ==
                   static_cast<int>(touchstone::Status::unsupported));
-Outcome& outcome_of(Result& result) { return reinterpret_cast<Outcome&>(result); }
+
+// Writes with `write` a new outcome in the place of the result, which then has its bytes.
+template <class Write>
+void write_in_place(Result& result, const Write& write) {
+  write(*::new (static_cast<void*>(&result)) Outcome);
+  // No instruction. Without it a compiler may take what was written for an outcome, and never for a result.
+  asm volatile("" : : "r"(&result) : "memory");
+}
 
 // Leaves what the question gives of an outcome that was new, with bounds whatever was asked, as only_given and
 // swapped do; but once, and in place, for callers of one pair.
-void keep_given(Task task, bool swap, Result& result) {
-  if (!asks_for_number(task, static_cast<touchstone::Answer>(result.answer)) ||
-      result.answer == Answer::unknown) {
-    result.distance = Result::none;
-    result.normal = result.on_a = result.on_b = {Result::none, Result::none, Result::none};
+void keep_given(Task task, bool swap, Outcome& outcome) {
+  if (!asks_for_number(task, outcome.answer) || outcome.answer == touchstone::Answer::unknown) {
+    outcome.distance = Outcome::none;
+    outcome.normal = outcome.witness_a = outcome.witness_b = Vec3d::Constant(Outcome::none);
   } else if (swap) {
-    const Vec3 n = result.normal;
-    result.normal = {0 - n.x, 0 - n.y, 0 - n.z};  // 0 - n keeps a zero positive
-    std::swap(result.on_a, result.on_b);
+    outcome.normal = Vec3d::Zero() - outcome.normal;  // 0 - n keeps a zero positive
+    std::swap(outcome.witness_a, outcome.witness_b);
   }
 }
 
@@ -56,7 +64,7 @@ void check_option(const std::optional<double>& value, const char* what) {
 
 }  // namespace
 
-struct Solver::Parts {
+struct [[gnu::visibility("hidden")]] Solver::Parts {
   explicit Parts(const SolverOptions& options)
       : choice(chosen(options.algorithm, options.cast_algorithm)),
         prepared(choice, {.tolerance = options.tolerance, .margin = options.margin}),
@@ -69,6 +77,7 @@ struct Solver::Parts {
   std::vector<std::uint32_t> shape_of, first, second, order;
   std::vector<touchstone::Pose> poses;
   std::vector<Outcome> outcomes;
+  std::vector<std::uint8_t> swapped;
 
   // Returns the store in which both shapes are, and their places.
   ShapeStore& store_of(const Shape& a, const Shape& b, std::array<std::uint32_t, 2>& places) {
@@ -154,8 +163,10 @@ Result Solver::ask(Question question, const Shape& shape_a, const Pose& pose_a,
                    const Shape& shape_b, const Pose& pose_b) {
   Parts::OnePair pair(parts(), inner(question), shape_a, pose_a, shape_b, pose_b);
   Result result;
-  pair.solve(outcome_of(result));
-  keep_given(pair.task, pair.swap, result);
+  write_in_place(result, [&](Outcome& outcome) {
+    pair.solve(outcome);
+    keep_given(pair.task, pair.swap, outcome);
+  });
   return result;
 }
 
@@ -216,6 +227,7 @@ void Solver::ask(Question question, std::span<const Body> bodies, std::span<cons
   parts.order.resize(pairs.size());
   parts.first.resize(pairs.size());
   parts.second.resize(pairs.size());
+  parts.swapped.resize(pairs.size());
   parts.outcomes.assign(pairs.size(), {});
   std::array<std::size_t, 65> ends = begins;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -223,6 +235,7 @@ void Solver::ask(Question question, std::span<const Body> bodies, std::span<cons
     const std::size_t at = ends[kinds(pair)]++;
     const bool swap = needs_swap(kind(pair.a), kind(pair.b));
     parts.order[at] = static_cast<std::uint32_t>(i);
+    parts.swapped[at] = swap ? 1 : 0;
     parts.first[at] = swap ? pair.b : pair.a;
     parts.second[at] = swap ? pair.a : pair.b;
   }
@@ -246,11 +259,11 @@ void Solver::ask(Question question, std::span<const Body> bodies, std::span<cons
       store.narrow_phase(parts.choice.where_open).solve_alone(task, batch, i, outcomes[i]);
     }
   }
-  for (std::size_t at = 0; at < pairs.size(); ++at) {
-    const IndexPair& pair = pairs[parts.order[at]];
-    Result& result = results[parts.order[at]];
-    outcome_of(result) = parts.outcomes[at];
-    keep_given(task, needs_swap(kind(pair.a), kind(pair.b)), result);
+  // No pair is read from here on: results may overwrite them.
+  for (std::size_t at = 0; at < results.size(); ++at) {
+    Outcome& outcome = parts.outcomes[at];
+    keep_given(task, parts.swapped[at] != 0, outcome);
+    std::memcpy(static_cast<void*>(&results[parts.order[at]]), &outcome, sizeof outcome);
   }
 }
 
@@ -304,7 +317,7 @@ CastResult Solver::cast(const Body& a, const Motion& motion_a, const Body& b,
 namespace {
 
 // A pointer needs no test whether the thread has made it.
-[[gnu::tls_model("initial-exec")]] thread_local Solver* of_thread = nullptr;
+thread_local Solver* of_thread = nullptr;
 
 Solver& make_solver_of_thread() {
   struct Owner {

@@ -50,7 +50,7 @@ static_assert(sizeof(IndexPair) == sizeof(touchstone::IndexPair) &&
 
 }  // namespace
 
-struct World::Parts {
+struct [[gnu::visibility("hidden")]] World::Parts {
   struct Slot {
     std::optional<Body> body;  // none: a box alone, or free
     bool is_used = false;

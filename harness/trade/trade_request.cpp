@@ -243,7 +243,8 @@ std::string trade_toml(const TradeRequest& request, const std::filesystem::path&
   text += fmt::format("name = {}\nseed = {}\n", in_quotes(request.name), request.seed);
   std::string module_files;
   for (const std::filesystem::path& module_file : modules::files())
-    module_files += (module_files.empty() ? "" : ", ") + in_quotes(module_file.string());
+    module_files += (module_files.empty() ? "" : ", ") +
+                    in_quotes(std::filesystem::relative(module_file, folder).string());
   if (!module_files.empty()) text += fmt::format("modules = [{}]\n", module_files);
   text += fmt::format("\n[trade]\nscene = {}\n", in_quotes(scene.string()));
   if (request.overrides.count != -1) text += fmt::format("count = {}\n", request.overrides.count);

@@ -17,9 +17,12 @@ namespace ts = touchstone;
 
 namespace touchstone_python {
 
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Places = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
-using Handles = py::array_t<std::uint64_t, py::array::c_style | py::array::forcecast>;
+// Arrays of another layout, or at an odd address, are copied.
+constexpr int plain =
+    py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+using Doubles = py::array_t<double, plain>;
+using Places = py::array_t<std::uint32_t, plain>;
+using Handles = py::array_t<std::uint64_t, plain>;
 
 inline std::string shape_text(const py::array& array) {
   std::string text = "(";
@@ -66,13 +69,13 @@ Array integers_of(const py::object& given, const char* what) {
   const char kind = array.dtype().kind();
   bool fits = kind == 'u' || kind == 'i';
   if (fits && kind == 'i') {
-    const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
+    const auto wide = py::array_t<std::int64_t, plain>(array);
     fits = std::all_of(wide.data(), wide.data() + wide.size(), [](std::int64_t number) {
       return number >= 0 &&
              static_cast<std::uint64_t>(number) <= std::numeric_limits<Integer>::max();
     });
   } else if (fits) {
-    const auto wide = py::array_t<std::uint64_t, py::array::c_style | py::array::forcecast>(array);
+    const auto wide = py::array_t<std::uint64_t, plain>(array);
     fits = std::all_of(wide.data(), wide.data() + wide.size(), [](std::uint64_t number) {
       return number <= std::numeric_limits<Integer>::max();
     });

@@ -84,12 +84,14 @@ py::array room_for(std::size_t count, const py::dtype& dtype, const py::object& 
   const auto array = py::reinterpret_borrow<py::array>(given);
   const bool fits = array.dtype().equal(dtype) && array.ndim() == 1 &&
                     array.shape(0) == static_cast<py::ssize_t>(count) && array.writeable() &&
-                    (array.flags() & py::array::c_style) != 0;
+                    (array.flags() & py::array::c_style) != 0 &&
+                    reinterpret_cast<std::uintptr_t>(array.data()) % alignof(ts::Result) == 0;
   if (fits) return array;
-  throw ts::Error("found out of the shape " + shape_text(array) +
-                  "; expected an array for writing, without gaps, with the fields of ask and the "
-                  "length " +
-                  std::to_string(count));
+  throw ts::Error(
+      "found out of the shape " + shape_text(array) +
+      "; expected an aligned array for writing, without gaps, with the fields of ask and the "
+      "length " +
+      std::to_string(count));
 }
 
 py::array ask_many(ts::Solver& solver, const std::string& question, const Bodies& bodies,

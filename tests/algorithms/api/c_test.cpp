@@ -195,7 +195,7 @@ TEST(InterfaceInC, RefusesWhatIsWrong) {
   EXPECT_EQ(touchstone_solver_ask(solver, 1, shape, &origin, shape, &wrong, &result),
             TOUCHSTONE_INVALID);
   EXPECT_EQ(result.answer, TOUCHSTONE_UNKNOWN);
-  EXPECT_EQ(result.distance, 0) << "a call with an error writes nothing";
+  EXPECT_EQ(result.distance, 0) << "a call with a wrong argument writes nothing";
   for (double* const number : {&wrong.rotation[0], &wrong.rotation[5], &wrong.translation[2]}) {
     for (const double bad : {nan, std::numeric_limits<double>::infinity(), -HUGE_VAL}) {
       wrong = at(3);

@@ -14,6 +14,7 @@ from fractions import Fraction
 
 import numpy as np
 import touchstone as ts
+from touchstone import _verify
 
 
 def at(x, y=0, z=0):
@@ -77,6 +78,16 @@ class Pairs(unittest.TestCase):
         for out in (frozen, results[:-1], np.repeat(results, 2)[::2], np.zeros(1000), results.tolist(), results[:, None]):
             with self.assertRaisesRegex(ts.Error, "out"):
                 solver.ask("signed_distance", bodies, pairs, out=out)
+        odd = np.frombuffer(bytearray(results.nbytes + 1), dtype=np.uint8)[1:].view(results.dtype)
+        with self.assertRaisesRegex(ts.Error, "expected an aligned array"):
+            solver.ask("signed_distance", bodies, pairs, out=odd)
+        # Pairs that share memory with the results are read before they are overwritten.
+        shared = results.copy()
+        asked = shared.view(np.uint32)[-2 * len(pairs):].reshape(-1, 2)
+        asked[:] = pairs
+        again = solver.ask("signed_distance", bodies, asked, out=shared)
+        for name in results.dtype.names:
+            np.testing.assert_array_equal(again[name], results[name])
         poses[:, 0, 3] += 1
         bodies.move(poses)
         np.testing.assert_allclose(solver.ask("distance", bodies, pairs)["distance"],
@@ -206,7 +217,8 @@ class Shapes(unittest.TestCase):
         wide[::2, ::2] = pose
         frozen = pose.copy()
         frozen.setflags(write=False)
-        for same in (np.asfortranarray(pose), wide[::2, ::2], pose[::-1][::-1], frozen, pose.tolist(),
+        odd = np.frombuffer(bytearray(1) + pose.tobytes(), dtype=float, offset=1).reshape(4, 4)
+        for same in (np.asfortranarray(pose), odd, wide[::2, ::2], pose[::-1][::-1], frozen, pose.tolist(),
                      pose.astype(np.float32), pose.astype(int), pose.astype(">f8"), pose.astype(np.float16)):
             np.testing.assert_array_equal(ts.Body(box, same).pose, pose)
         points = np.random.default_rng(4).normal(size=(3, 20))
@@ -280,8 +292,19 @@ class Proofs(unittest.TestCase):
         self.assertRaises(ts.Error, ts.verify, json.dumps(moved))
         for wrong in ("", "{}", "[]", "null", found.certificate[:-1], 3, None):
             self.assertRaises(ts.Error, ts.verify, wrong)
-        if hasattr(sys, "get_int_max_str_digits"):
-            self.assertGreater(sys.get_int_max_str_digits(), 0)  # as it was
+
+    def test_long_integers_are_read_whatever_the_limit(self):
+        limit = sys.get_int_max_str_digits() if hasattr(sys, "get_int_max_str_digits") else 0
+        self.assertEqual(_verify.integer("-1" + "0" * 99_999), -(10**99_999))
+        self.assertEqual(_verify.integer("9" * 20_001), 10**20_001 - 1)
+        self.assertEqual([_verify.integer(text) for text in ("0", "-7", "501")], [0, -7, 501])
+        for wrong in ("-0", "01", "1_0", "9" * 100_002, 3):
+            self.assertRaises(_verify.Malformed, _verify.integer, wrong)
+        far, thin = ts.Body(ts.Shape.sphere(1e-300), at(1e300, 1e-300)), ts.Body(ts.Shape.cone(1e-200, 1e150))
+        found = ts.exact.distance(thin, far)
+        self.assertTrue(ts.verify(found.certificate))
+        if limit:
+            self.assertEqual(sys.get_int_max_str_digits(), limit)  # nothing of the process changes
 
 
 class Balls:
@@ -297,6 +320,12 @@ class Balls:
             raise RuntimeError("planted")
         radii = a.shape.parameters["radius"] + b.shape.parameters["radius"]
         gap = float(np.linalg.norm(b.pose[:3, 3] - a.pose[:3, 3])) - radii
+        if self.fault == "dictionary":
+            far = {"answer": "separated", "distance": np.float32(gap), "normal": np.eye(3)[0], "id": 7}
+            return far if gap > 0 else {"answer": "overlapping"}
+        odd = {"set": {"distance": {gap}}, "nan": {"distance": math.nan}, "infinite": math.inf, "key": {(1, 2): 3}}
+        if self.fault in odd:
+            return odd[self.fault]
         return gap + 0.1 if self.fault == "off" else gap
 
 
@@ -315,6 +344,14 @@ class OnesOwn(unittest.TestCase):
         self.assertEqual(set(grades.counts), {"gave_up"})
         self.assertIn("RuntimeError: planted", grades.errors[0])
         self.assertEqual(len(grades.errors), len(grades.rows))
+        grades = ts.check(Balls("dictionary"), **options)  # which has NumPy's numbers, and an id that is not asked for
+        self.assertEqual(grades.errors, [])
+        self.assertNotIn("gave_up", grades.counts)
+        self.assertNotIn("failed", grades.counts)
+        for fault in ("set", "nan", "infinite", "key"):
+            grades = ts.check(Balls(fault), **options)
+            self.assertEqual(set(grades.counts), {"gave_up"}, fault)
+            self.assertEqual(len(grades.errors), 0 if fault == "infinite" else len(grades.rows))
 
     def test_a_solver_is_graded(self):
         grades = ts.check(ts.Solver("certified"), cases=3, groups=["gap"])

@@ -4,9 +4,10 @@
  *            of a ray's direction.
  * Frames:    a shape has coordinates of its own; a pose takes them to the world. Answers are in the world.
  * Errors:    functions return TOUCHSTONE_OK, or what went wrong, and then touchstone_last_error() has the words. A
- *            call with an error changes nothing, and writes nothing but NULL where it makes an object. Functions
- *            take no NULL but where they say so. What an algorithm cannot answer is no error: the result has a
- *            status and the answer TOUCHSTONE_UNKNOWN.
+ *            call that returns TOUCHSTONE_INVALID changes nothing, and writes nothing but NULL where it makes an
+ *            object. After another error a result that was to be written may have any numbers. Functions take no
+ *            NULL but where they say so. What an algorithm cannot answer is no error: the result has a status and
+ *            the answer TOUCHSTONE_UNKNOWN.
  * Threads:   shapes may be used by many threads at once. A solver or a world is used by one thread at a time.
  * Lifetime:  who makes an object destroys it. A shape may be destroyed while solvers and worlds use it.
  * Versions:  structures that may grow begin with their size, which the caller sets: TOUCHSTONE_RESULT_INIT and its

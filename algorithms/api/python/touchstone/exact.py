@@ -12,7 +12,6 @@ True
 
 import json
 import math
-import sys
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Union
@@ -52,7 +51,7 @@ class Exact:
 
 def _root(length, upward):
     """A fraction at most, or at least, the length sign * sqrt(numerator / denominator)."""
-    sign, numerator, denominator = length["sign"], int(length["numerator"]), int(length["denominator"])
+    sign, numerator, denominator = length["sign"], _verify.integer(length["numerator"]), _verify.integer(length["denominator"])
     if sign == 0:
         return Fraction(0)
     if denominator == 0:
@@ -68,19 +67,6 @@ def _root(length, upward):
     return sign * Fraction(root, 1 << shift)
 
 
-class _AnyDigits:
-    """Integers of any length are read meanwhile."""
-
-    def __enter__(self):
-        self.limit = sys.get_int_max_str_digits() if hasattr(sys, "set_int_max_str_digits") else None
-        if self.limit is not None:
-            sys.set_int_max_str_digits(0)
-
-    def __exit__(self, *_):
-        if self.limit is not None:
-            sys.set_int_max_str_digits(self.limit)
-
-
 def distance(a: Body, b: Body) -> Exact:
     """The signed distance of two bodies, exactly, with its proof.
 
@@ -88,11 +74,10 @@ def distance(a: Body, b: Body) -> Exact:
     cylinders, cones and ellipsoids enclose it.
     """
     text = certificate(a, b)
-    with _AnyDigits():
-        proof = json.loads(text)
-        radii = sum(Fraction(float(proof[body]["shape"].get("radius", 0))) for body in "ab"
-                    if proof[body]["shape"]["type"] in ("sphere", "capsule"))
-        lower, upper = _root(proof["lower"], False), _root(proof["upper"], True)
+    proof = json.loads(text)
+    radii = sum(Fraction(float(proof[body]["shape"].get("radius", 0))) for body in "ab"
+                if proof[body]["shape"]["type"] in ("sphere", "capsule"))
+    lower, upper = _root(proof["lower"], False), _root(proof["upper"], True)
     return Exact(proof["answer"], lower - radii, upper - radii, text)
 
 
@@ -104,8 +89,7 @@ def verify(certificate: str) -> bool:
     """
     if not isinstance(certificate, str):
         raise Error(f"found {type(certificate).__name__} as a certificate; expected a line of JSON")
-    with _AnyDigits():
-        why = _verify.judge(certificate)
+    why = _verify.judge(certificate)
     if why is not None:
         raise Error(why[0])
     return True

@@ -117,12 +117,24 @@ def _answer(found: Any, task: str) -> Dict[str, Any]:
             raise Error(f"found {found} as an answer to {task}; expected a number of metres")
         return {"answer": "overlapping" if found else "separated"}
     number = float(found)
-    if math.isnan(number):
+    if not math.isfinite(number):
         return {"answer": "unknown", "status": "degenerate"}
     apart = number > 0
     if (task == "distance" and not apart) or (task == "penetration" and apart):
         return {"answer": "separated" if apart else "overlapping" if number < 0 else "touching"}
     return {"distance": number}
+
+
+def _plain(value: Any) -> Any:
+    """NumPy's scalars and arrays, of which JSON knows nothing."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"found {type(value).__name__} in an answer; expected what JSON has")
+
+
+def _line(found: Any, question: Dict[str, Any]) -> str:
+    """The answer as a line of the protocol. Raises ValueError for infinite numbers and NaN in a dictionary."""
+    return json.dumps({**_answer(found, question["task"]), "id": question["id"]}, allow_nan=False, default=_plain)
 
 
 def _run(words: Sequence[str]) -> str:
@@ -152,7 +164,7 @@ def check(
         signed_distance(a, b), which take touchstone.Body. Body.shape.parameters has the sizes, Body.pose the matrix.
         A method returns a touchstone.Result; a signed number of metres, > 0 for a gap; an answer such as 'separated'; of
         intersects a bool; a dictionary of the peer protocol; or None for what it does not take. An exception counts as
-        an answer that was given up.
+        an answer that was given up, and so does a number that is infinite or NaN.
     cases: how many of each family of cases.
     groups: such as ['gap', 'depth']; without it all.
     shapes: the kinds that it takes, such as ['sphere', 'box']; without it all.
@@ -185,11 +197,11 @@ def check(
                 if method is None or not takes:
                     continue
                 try:
-                    answer = _answer(method(_body(question["a"]), _body(question["b"])), question["task"])
+                    answer = _line(method(_body(question["a"]), _body(question["b"])), question)
                 except Exception:  # of the algorithm: a row, and the next question
                     errors.append(traceback.format_exc())
-                    answer = {"answer": "unknown", "status": "degenerate"}
-                told.write(json.dumps({"id": question["id"], **answer}) + "\n")
+                    answer = _line({"answer": "unknown", "status": "degenerate"}, question)
+                told.write(answer + "\n")
         results = Path(out) if out is not None else Path(folder, "out")
         text = _run([*words, "--answers", str(answers), "--out", str(results)])
         with open(results / "grades.csv", encoding="utf-8", newline="") as table:
