@@ -35,7 +35,9 @@ struct ModelPart {
 
   ConcaveBody body;
   std::uint32_t link = world;  // the link that it moves with, or the world
-  Pose pose;                   // in the frame of the link, or in the world (metres)
+  // In the frame of the link, or in the world (metres). Rotations, and those of links, may be off by a thousandth, as
+  // those of files may; they are taken as they stand.
+  Pose pose;
 };
 
 // A robot and what stands around it.
@@ -104,8 +106,7 @@ class ConfigurationQuery {
   // lives, unchanged, until then or the end.
   virtual void bind(const ConfigurationModel& model) = 0;
 
-  // Writes the whole of answers[i] for each configuration, or motion, i. Links' rotations are orthonormal up to
-  // rounding. Never throws on finite input: a failure is a status.
+  // Writes the whole of answers[i] for each configuration, or motion, i. Never throws on finite input: a failure is a status.
   virtual void solve(ConfigurationTask task, const Configurations& configurations,
                      std::span<ConfigurationAnswer> answers) = 0;
 };

@@ -6,12 +6,24 @@
 #include <limits>
 #include <numeric>
 
+#include "algorithms/core/mesh/sole_shape.h"
+
 namespace touchstone {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 // Of the reach: more than poses are off that are rotations up to rounding, and their products.
 constexpr double relative_slack = 0x1p-36;
+// The orthonormal error of rotations up to rounding is less.
+constexpr double most_rounded = 0x1p-44;
+
+// Of what no configuration moves: later than any.
+constexpr std::uint64_t always = std::numeric_limits<std::uint64_t>::max();
+
+// A square that underflows may be any.
+double root(double squared) {
+  return squared >= std::numeric_limits<double>::min() ? std::sqrt(squared) : 0;
+}
 
 // The box along the axes around points, and a ball about its centre.
 PartBounds around(std::span<const Vec3d> points) {
@@ -85,7 +97,13 @@ PartBounds around_parts(std::span<const ConvexPart> parts) {
   std::vector<Vec3d> corners;
   for (const ConvexPart& part : parts) {
     PartBounds bounds = around(part.shape);
-    if (!std::isfinite(bounds.radius)) return bounds;
+    if (bounds.radius < 0) continue;
+    if (!std::isfinite(bounds.radius)) {
+      PartBounds boundless;
+      boundless.half.setConstant(infinite);
+      boundless.radius = infinite;
+      return boundless;
+    }
     move(bounds, part.pose);
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3d sign((corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1);
@@ -93,13 +111,6 @@ PartBounds around_parts(std::span<const ConvexPart> parts) {
     }
   }
   return around(corners);
-}
-
-bool is_convex(const ConcaveBody& body) {
-  if (body.mesh || body.parts.size() != 1) return false;
-  const ConvexPart& part = body.parts.front();
-  return part.rounding == 0 && part.pose.rotation == Mat3d::Identity() &&
-         part.pose.translation == Vec3d::Zero();
 }
 
 PartBounds bounds_of(const ConcaveBody& body) {
@@ -110,11 +121,15 @@ PartBounds bounds_of(const ConcaveBody& body) {
     }
     return around(corners);
   }
-  if (is_convex(body)) return around(body.parts.front().shape);
+  if (const Shape* const shape = sole_shape(body)) return around(*shape);
   return around_parts(body.parts);
 }
 
 }  // namespace
+
+double orthonormal_error(const Mat3d& matrix) {
+  return (matrix.transpose() * matrix - Mat3d::Identity()).cwiseAbs().maxCoeff();
+}
 
 void BoundModel::bind(const ConfigurationModel& model, const ConfigurationSettings& settings) {
   model_ = &model;
@@ -123,15 +138,20 @@ void BoundModel::bind(const ConfigurationModel& model, const ConfigurationSettin
   is_convex_.clear();
   shapes_.assign(count, Shape{});
   bodies_.clear();
-  reach_ = 0;
+  reach_ = error_of_parts_ = 0;
   bool some_convex = false, some_concave = false;
   for (std::size_t i = 0; i < count; ++i) {
     const ModelPart& part = model.parts[i];
     PartBounds& bounds = bounds_.emplace_back(bounds_of(part.body));
     move(bounds, part.pose);
-    const bool convex = is_convex(part.body);
+    error_of_parts_ = std::max(error_of_parts_, orthonormal_error(part.pose.rotation));
+    for (const ConvexPart& convex : part.body.parts) {
+      error_of_parts_ = std::max(error_of_parts_, orthonormal_error(convex.pose.rotation));
+    }
+    const Shape* const shape = sole_shape(part.body);
+    const bool convex = shape != nullptr;
     is_convex_.push_back(convex ? 1 : 0);
-    if (convex) shapes_[i] = part.body.parts.front().shape;
+    if (convex) shapes_[i] = *shape;
     bodies_.push_back(part.body);
     (convex ? some_convex : some_concave) = true;
     if (bounds.is_plane()) reach_ = std::max(reach_, std::abs(bounds.offset));
@@ -161,41 +181,43 @@ void BoundModel::bind(const ConfigurationModel& model, const ConfigurationSettin
   centres_.assign(count, Vec3d::Zero());
   axes_.assign(count, Mat3d::Identity());
   poses_.assign(count, Pose{});
+  for (std::size_t i = 0; i < count; ++i) {
+    if (model.parts[i].link != ModelPart::world) continue;
+    placed_centres_[i] = placed_axes_[i] = placed_poses_[i] = always;
+    centres_[i] = bounds_[i].centre;
+    axes_[i] = bounds_[i].axes;
+    poses_[i] = model.parts[i].pose;
+  }
 }
 
 void BoundModel::place(std::span<const Pose> links) {
   links_ = links;
   ++now_;
-  double furthest = 0;
+  double furthest = 0, error = error_of_parts_;
   for (const Pose& link : links) {
     furthest = std::max(furthest, link.translation.cwiseAbs().maxCoeff());
+    error = std::max(error, orthonormal_error(link.rotation));
   }
-  slack_ = relative_slack * (furthest + reach_);
+  is_rigid_ = error <= most_rounded;
+  slack_ = (relative_slack + (is_rigid_ ? 0 : slack_of_error * error)) * (furthest + reach_);
 }
 
 void BoundModel::place_centre(std::uint32_t part) {
-  const std::uint32_t link = model_->parts[part].link;
-  const bool in_world = link == ModelPart::world;
-  const PartBounds& bounds = bounds_[part];
-  centres_[part] = in_world ? bounds.centre : links_[link](bounds.centre);
+  centres_[part] = links_[link_of(part)](bounds_[part].centre);
   placed_centres_[part] = now_;
 }
 
 const Mat3d& BoundModel::axes(std::uint32_t part) {
-  const std::uint32_t link = model_->parts[part].link;
-  if (link == ModelPart::world) return bounds_[part].axes;
-  if (placed_axes_[part] != now_) {
-    axes_[part] = links_[link].rotation * bounds_[part].axes;
+  if (placed_axes_[part] < now_) {
+    axes_[part] = links_[link_of(part)].rotation * bounds_[part].axes;
     placed_axes_[part] = now_;
   }
   return axes_[part];
 }
 
 const Pose& BoundModel::pose(std::uint32_t part) {
-  if (placed_poses_[part] != now_) {
-    const ModelPart& given = model_->parts[part];
-    poses_[part] =
-        given.link == ModelPart::world ? given.pose : placed_within(links_[given.link], given.pose);
+  if (placed_poses_[part] < now_) {
+    poses_[part] = placed_within(links_[link_of(part)], model_->parts[part].pose);
     placed_poses_[part] = now_;
   }
   return poses_[part];
@@ -245,8 +267,8 @@ BoundModel::Bound BoundModel::bound(const IndexPair& pair) {
   if (balls_are_apart(a, b)) return Bound::apart;
   const PartBounds &of_a = bounds_[a], &of_b = bounds_[b];
   const auto within = [&](double squared, double reach) {
-    const double sure = reach - slack_;
-    return sure >= 0 && squared <= sure * sure ? Bound::touch : Bound::open;
+    const double sure = reach - slack_, most = sure * sure;
+    return sure > 0 && std::isnormal(most) && squared <= most ? Bound::touch : Bound::open;
   };
   if (of_a.is_ball && of_b.is_ball) {
     return within((centre(a) - centre(b)).squaredNorm(), of_a.radius + of_b.radius);
@@ -254,7 +276,7 @@ BoundModel::Bound BoundModel::bound(const IndexPair& pair) {
   for (const auto& [ball, box] : {IndexPair{a, b}, IndexPair{b, a}}) {
     const double squared = squared_gap_of_box(centre(ball), box);
     const double radius = bounds_[ball].radius, reach = radius + slack_;
-    if (squared > reach * reach) return Bound::apart;
+    if (is_beyond(squared, reach)) return Bound::apart;
     if (!bounds_[ball].is_ball) continue;
     return bounds_[box].is_box ? within(squared, radius) : Bound::open;
   }
@@ -263,20 +285,24 @@ BoundModel::Bound BoundModel::bound(const IndexPair& pair) {
 
 BoundModel::Gap BoundModel::gap(const IndexPair& pair) {
   const auto [a, b] = pair;
+  // A bound that overflows says nothing.
+  const auto bounded = [&](double bound, bool is_exact) -> Gap {
+    if (!std::isfinite(bound)) return {-infinite, false};
+    return {bound, is_exact && is_rigid_};
+  };
   for (const auto& [part, ground] : {IndexPair{a, b}, IndexPair{b, a}}) {
     if (!is_ground(ground)) continue;
-    const bool is_ball = bounds_[part].is_ball;
-    return {height(part, ground) - (is_ball ? 0 : slack_), is_ball};
+    return bounded(height(part, ground), bounds_[part].is_ball);
   }
   const PartBounds &of_a = bounds_[a], &of_b = bounds_[b];
-  double least = (centre(a) - centre(b)).norm() - of_a.radius - of_b.radius;
-  if (of_a.is_ball && of_b.is_ball) return {least, true};
+  double least = root((centre(a) - centre(b)).squaredNorm()) - of_a.radius - of_b.radius;
+  if (of_a.is_ball && of_b.is_ball) return bounded(least, true);
   for (const auto& [ball, box] : {IndexPair{a, b}, IndexPair{b, a}}) {
-    const double found = std::sqrt(squared_gap_of_box(centre(ball), box)) - bounds_[ball].radius;
-    if (bounds_[ball].is_ball && bounds_[box].is_box) return {found, true};
+    const double found = root(squared_gap_of_box(centre(ball), box)) - bounds_[ball].radius;
+    if (bounds_[ball].is_ball && bounds_[box].is_box) return bounded(found, true);
     least = std::max(least, found);
   }
-  return {least - slack_, false};
+  return bounded(least, false);
 }
 
 const Outcome& BoundModel::ask(Task task, const IndexPair& pair) {

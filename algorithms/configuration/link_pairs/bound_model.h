@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -24,6 +25,16 @@ struct PartBounds {
   bool is_plane() const { return normal != Vec3d::Zero(); }
 };
 
+// Whether a distance, whose square is given, is more than `reach`. False where squares underflow, for it is not known.
+inline bool is_beyond(double squared, double reach) {
+  return squared > reach * reach && squared >= std::numeric_limits<double>::min();
+}
+
+// By how much the columns of a matrix fail to be orthonormal.
+double orthonormal_error(const Mat3d& matrix);
+// By so many times that error and the reach, bounds of parts that are turned by such matrices are off, or less.
+inline constexpr double slack_of_error = 64;
+
 class BoundModel {
  public:
   // What bounds say of a pair: certain, whatever was rounded, but for `open`.
@@ -43,20 +54,22 @@ class BoundModel {
 
   // Begins a configuration; the poses live until the next one.
   void place(std::span<const Pose> links);
+  // The orthonormal error of the poses of parts; `place` adds that of the links.
+  double orthonormal_error_of_parts() const { return error_of_parts_; }
   // By how much bounds are wider than they state, in this configuration (metres).
   double slack() const { return slack_; }
   const Vec3d& centre(std::uint32_t part) {
-    if (placed_centres_[part] != now_) place_centre(part);
+    if (placed_centres_[part] < now_) place_centre(part);
     return centres_[part];
   }
 
   bool balls_are_apart(std::uint32_t a, std::uint32_t b) {
     const double reach = bounds_[a].radius + bounds_[b].radius + slack_;
-    return (centre(a) - centre(b)).squaredNorm() > reach * reach;
+    return is_beyond((centre(a) - centre(b)).squaredNorm(), reach);
   }
   // Balls first, then boxes.
   Bound bound(const IndexPair& pair);
-  // A lower bound of their distance, and whether it is the distance up to rounding (metres).
+  // The distance is no less, but for the slack; and whether it is the distance up to rounding (metres).
   struct Gap {
     double least;
     bool is_exact;
@@ -95,11 +108,13 @@ class BoundModel {
   std::vector<std::uint32_t> own_number_;  // 0, 1, 2...
   std::unique_ptr<NarrowPhase> narrow_;
   std::unique_ptr<ConcavePhase> concave_;  // null if all parts are convex
+  double error_of_parts_ = 0;
   double reach_ = 0;  // no part reaches further from its link, or the origin (metres)
 
   // In this configuration, those whose number is `now_`; the world's have the greatest number.
   std::span<const Pose> links_;
   double slack_ = 0;
+  bool is_rigid_ = true;  // all poses are rotations up to rounding
   std::uint64_t now_ = 0;
   std::vector<std::uint64_t> placed_centres_, placed_axes_, placed_poses_;
   std::vector<Vec3d> centres_;

@@ -39,6 +39,7 @@ class PoseLanes final : public PairSearch {
   void prepare(const ConfigurationModel& model) override {
     groups_ = LinkGroups(model_, model);
     is_bounded_ = true;
+    uses_lanes_ = false;
     for (const LinkGroup& link : groups_.links()) {
       is_bounded_ = is_bounded_ && std::isfinite(link.radius);
     }
@@ -195,34 +196,36 @@ class PoseLanes final : public PairSearch {
 
   // --- ask ---
 
-  // The first step in contact, found block by block.
+  // The first step that is not free, or not known to be, found block by block.
   ConfigurationAnswer first_of(const Configurations& all, std::size_t motion) {
     const std::span<const Pose> poses =
         all.poses.subspan(motion * all.steps * all.links, std::size_t{all.steps} * all.links);
     const Configurations steps = {poses, all.links, 1};
     std::array<ConfigurationAnswer, pose_lanes> block;
-    bool is_known = true;
     ConfigurationAnswer found;
     for (std::size_t first = 0; first < all.steps; first += pose_lanes) {
       const std::size_t count = std::min<std::size_t>(pose_lanes, all.steps - first);
       find_block(steps, first, std::span(block).first(count));
       for (std::size_t i = 0; i < count; ++i) {
         found = block[i];
-        is_known = is_known && found.answer != Answer::unknown;
-        if (found.answer != Answer::overlapping) continue;
+        if (found.answer == Answer::separated) continue;
         found.step = static_cast<std::uint32_t>(first + i);
-        if (!is_known) found.answer = Answer::unknown;
         return found;
       }
     }
-    if (!is_known) found.answer = Answer::unknown;
     return found;
   }
 
   void find_block(const Configurations& all, std::size_t first,
                   std::span<ConfigurationAnswer> answers) {
     ++block_;
-    begin(all, first, answers.size());
+    uses_lanes_ = begin(all, first, answers.size());
+    if (!uses_lanes_) {
+      for (std::size_t lane = 0; lane < answers.size(); ++lane) {
+        answers[lane] = find(all.of(first + lane));
+      }
+      return;
+    }
     for (ConfigurationAnswer& answer : answers) {
       answer = ConfigurationAnswer{};
       answer.answer = Answer::separated;
@@ -250,8 +253,16 @@ class PoseLanes final : public PairSearch {
   }
 
   // The poses of links as lanes of floats, and the balls of links. What is rounded to floats is off by less than the slack.
-  void begin(const Configurations& all, std::size_t first, std::size_t count) {
-    float furthest = 0;
+  // False if squares of floats may overflow or underflow.
+  bool begin(const Configurations& all, std::size_t first, std::size_t count) {
+    double furthest = 0, error = model_.orthonormal_error_of_parts();
+    for (const Pose& pose : all.poses.subspan(first * all.links, count * all.links)) {
+      furthest = std::max(furthest, pose.translation.cwiseAbs().maxCoeff());
+      error = std::max(error, orthonormal_error(pose.rotation));
+    }
+    const double furthest_point = furthest + reach_;
+    if (!(furthest_point > 1e-12 && furthest_point < 1e15)) return false;
+    slack_ = static_cast<float>((0x1p-19 + slack_of_error * error) * furthest_point);
     for (std::uint32_t link = 0; link < all.links; ++link) {
       if (groups_.links()[link].parts.empty()) continue;
       LanePose& lanes = lanes_of_links_[link];
@@ -263,14 +274,12 @@ class PoseLanes final : public PairSearch {
             lanes.rows[4 * row + k][lane] =
                 static_cast<float>(pose.rotation(i, static_cast<Eigen::Index>(k)));
           }
-          const auto along = static_cast<float>(pose.translation[i]);
-          lanes.rows[4 * row + 3][lane] = along;
-          furthest = std::max(furthest, std::abs(along));
+          lanes.rows[4 * row + 3][lane] = static_cast<float>(pose.translation[i]);
         }
       }
       place(link, 0, 1);
     }
-    slack_ = 0x1p-19F * (furthest + static_cast<float>(reach_));
+    return true;
   }
 
   // Places balls of a link: of itself, the first, and of its parts.
@@ -313,7 +322,7 @@ class PoseLanes final : public PairSearch {
   // Of the lane at hand the pairs that its balls left.
   IndexPair search(std::span<const Pose>) override {
     const std::span<const IndexPair> pairs =
-        is_bounded_ ? std::span<const IndexPair>(asked_) : model_.pairs();
+        uses_lanes_ ? std::span<const IndexPair>(asked_) : model_.pairs();
     for (const IndexPair& pair : pairs) {
       if (is_some(settle(pair))) return pair;
     }
@@ -339,6 +348,7 @@ class PoseLanes final : public PairSearch {
   std::vector<std::uint64_t> placed_;  // by link: the block in which its parts were placed
   std::vector<LanePose> lanes_of_links_;
   std::vector<LaneBall> balls_;
+  bool uses_lanes_ = false;  // else the plain search is asked
   float slack_ = 0;
   std::uint32_t alive_ = 0;
   std::array<std::vector<LaneHit>, 3> hits_;

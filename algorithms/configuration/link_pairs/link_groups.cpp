@@ -2,6 +2,8 @@
 #include "algorithms/configuration/link_pairs/link_groups.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -47,10 +49,16 @@ LinkGroups::LinkGroups(const BoundModel& bounds, const ConfigurationModel& model
       continue;
     }
     Vec3d low = one.centre, high = one.centre;
+    bool is_bounded = true;
     for (const std::uint32_t part : link.parts) {
       const PartBounds& of = bounds.bounds(part);
+      is_bounded = is_bounded && std::isfinite(of.radius);
       low = low.cwiseMin(of.centre - Vec3d::Constant(of.radius));
       high = high.cwiseMax(of.centre + Vec3d::Constant(of.radius));
+    }
+    if (!is_bounded) {
+      link.radius = std::numeric_limits<double>::infinity();
+      continue;
     }
     link.centre = low + (high - low) / 2;
     for (const std::uint32_t part : link.parts) {

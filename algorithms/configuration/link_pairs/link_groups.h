@@ -12,7 +12,8 @@ namespace touchstone {
 struct LinkGroup {
   std::vector<std::uint32_t> parts;  // those of which some pair is asked
   Vec3d centre = Vec3d::Zero();      // in the link's frame
-  double radius = 0;  // of the ball; infinite or zero without a meaning if there are no parts
+  double radius =
+      0;  // of the ball; infinite if a part has no bounds, without a meaning if there are no parts
 };
 
 // Two links of which some pair of parts is asked.

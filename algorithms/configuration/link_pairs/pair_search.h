@@ -19,6 +19,7 @@ class PairSearch : public ConfigurationQuery {
   void bind(const ConfigurationModel& model) override {
     model_.bind(model, settings_);
     hits_.assign(model.parts.size(), 0);
+    last_ = nothing;
     prepare(model);
   }
 
@@ -32,16 +33,12 @@ class PairSearch : public ConfigurationQuery {
         measure(configurations.of(i), answers[i]);
         continue;
       }
-      bool is_known = true;
       for (std::uint32_t step = 0; step < configurations.steps; ++step) {
         answers[i] = find(configurations.of(i, step));
-        is_known = is_known && answers[i].answer != Answer::unknown;
-        if (answers[i].answer != Answer::overlapping) continue;
+        if (answers[i].answer == Answer::separated) continue;
         if (task == ConfigurationTask::motion) answers[i].step = step;
         break;
       }
-      // A step before may be the first in contact.
-      if (!is_known) answers[i].answer = Answer::unknown;
     }
   }
 
@@ -129,8 +126,8 @@ class PairSearch : public ConfigurationQuery {
       // What is far from contact is exact up to rounding, and what is near it is asked.
       if (gap.is_exact && gap.least > 2 * model_.slack()) {
         take(pair, gap.least, answer);
-      } else if (gap.least < answer.distance) {
-        gaps_.push_back({gap.least, pair});
+      } else if (gap.least - model_.slack() < answer.distance) {
+        gaps_.push_back({gap.least - model_.slack(), pair});
       }
     }
     std::ranges::make_heap(gaps_, std::greater{}, &Near::least);

@@ -1,6 +1,7 @@
 // Part of link-pairs: a tree of the obstacles' boxes, which is asked for the balls of links.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -45,7 +46,7 @@ class WorldTree final : public PairSearch {
     for (const LinkPairs& pair : groups_.pairs()) {
       const double reach =
           groups_.links()[pair.a].radius + groups_.links()[pair.b].radius + model_.slack();
-      if ((centres_[pair.a] - centres_[pair.b]).squaredNorm() > reach * reach) continue;
+      if (is_beyond((centres_[pair.a] - centres_[pair.b]).squaredNorm(), reach)) continue;
       for (const IndexPair& parts : pair.pairs) {
         if (is_some(settle(parts))) return parts;
       }
@@ -83,7 +84,8 @@ class WorldTree final : public PairSearch {
     const double wide = reach + 0x1p-20 * (centre.cwiseAbs().maxCoeff() + reach);
     const auto x = static_cast<float>(centre.x()), y = static_cast<float>(centre.y()),
                z = static_cast<float>(centre.z());
-    const auto most = static_cast<float>(wide * wide * (1 + 0x1p-20));
+    // A square that overflows is infinite, and none is so small that it underflows.
+    const auto most = std::max(static_cast<float>(wide * wide * (1 + 0x1p-20)), 1e-36F);
     while (!open_nodes_.empty()) {
       const WideNode& node = tree_.nodes[open_nodes_.back()];
       open_nodes_.pop_back();

@@ -3,12 +3,13 @@
 //          MoveIt and Tesseract ask them: each part is a btCollisionObject, a mesh is a compound of triangles, and a
 //          filter leaves out pairs that may touch.
 // Departs: shapes have no margins, as in bullet-mesh. The boxes of the parts of links are moved in each configuration,
-//          and the pairs of boxes are kept. Only the build in float is used.
+//          and the pairs of boxes are kept, each with its algorithm. Only the build in float is used.
 // Fails:   two triangles, and all convex shapes, are those of Bullet's GJK and EPA: it misses touches, and all lengths
 //          are compared with absolute thresholds.
-// Cost:    a shape and a child of the compound for each triangle; allocates in each pair that is asked.
+// Cost:    a shape and a child of the compound for each triangle; allocates in each pair of boxes that is new.
 #include "algorithms/configuration_query.h"
 
+#include "algorithms/core/mesh/sole_shape.h"
 #include "algorithms/peers/not_built.h"
 #ifdef TOUCHSTONE_HAS_BULLET
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
@@ -132,7 +133,7 @@ class BulletConfigurations final : public ConfigurationQuery {
       }
       part->object.setCollisionShape(part->compound.get());
     } else {
-      part->body = make_body(given.body.parts.front().shape);
+      part->body = make_body(*sole_shape(given.body));
       part->object.setCollisionShape(part->body.shape.get());
     }
     part->object.setUserIndex(static_cast<int>(number));
@@ -171,20 +172,21 @@ class BulletConfigurations final : public ConfigurationQuery {
     return found;
   }
 
-  void ask(const btBroadphasePair& pair, ConfigurationAnswer& found) {
+  void ask(btBroadphasePair& pair, ConfigurationAnswer& found) {
     const auto *first = static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject),
                *second = static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
     const btCollisionObjectWrapper wrap_a(nullptr, first->getCollisionShape(), first,
                                           first->getWorldTransform(), -1, -1);
     const btCollisionObjectWrapper wrap_b(nullptr, second->getCollisionShape(), second,
                                           second->getWorldTransform(), -1, -1);
-    btCollisionAlgorithm* algorithm =
-        dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CLOSEST_POINT_ALGORITHMS);
-    if (algorithm == nullptr) return;
+    // The cache of pairs frees it when the boxes part.
+    if (pair.m_algorithm == nullptr) {
+      pair.m_algorithm =
+          dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CLOSEST_POINT_ALGORITHMS);
+    }
+    if (pair.m_algorithm == nullptr) return;
     TouchResult result(&wrap_a, &wrap_b);
-    algorithm->processCollision(&wrap_a, &wrap_b, info_, &result);
-    algorithm->~btCollisionAlgorithm();
-    dispatcher_.freeCollisionAlgorithm(algorithm);
+    pair.m_algorithm->processCollision(&wrap_a, &wrap_b, info_, &result);
     if (!result.touches) return;
     const auto a = static_cast<std::uint32_t>(first->getUserIndex()),
                b = static_cast<std::uint32_t>(second->getUserIndex());
@@ -223,9 +225,9 @@ std::vector<ConfigurationEntry> peers_bullet_configurations() {
            [](const ConfigurationModel& model) {
              return std::ranges::all_of(model.parts, [](const ModelPart& part) {
                if (part.body.mesh) return !part.body.mesh->solid;
-               const auto& parts = part.body.parts;
-               return parts.empty() ||
-                      (parts.size() == 1 && parts.front().shape.kind != ShapeKind::halfspace);
+               const Shape* const shape = sole_shape(part.body);
+               return part.body.part_count() == 0 ||
+                      (shape != nullptr && shape->kind != ShapeKind::halfspace);
              });
            },
        .approximate = true,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "algorithms/configuration_query.h"
+#include "algorithms/core/mesh/sole_shape.h"
 
 #ifdef TOUCHSTONE_HAS_FCL
 #if defined(__GNUC__) && !defined(__clang__)
@@ -33,7 +34,7 @@ using Object = fcl::CollisionObject<double>;
 using Geometry = std::shared_ptr<fcl::CollisionGeometry<double>>;
 
 Geometry geometry_of(const ConcaveBody& body) {
-  if (!body.mesh) return fcl_shapes::make_fcl_shape<double>(body.parts.front().shape);
+  if (!body.mesh) return fcl_shapes::make_fcl_shape<double>(*sole_shape(body));
   const auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSS<double>>>();
   std::vector<fcl::Triangle> triangles;
   for (const auto& corners : body.mesh->triangles) {
@@ -53,6 +54,10 @@ class FclConfigurations final : public ConfigurationQuery {
   void bind(const ConfigurationModel& model) override {
     model_ = &model;
     objects_.clear();
+    has_halfspace_ = std::ranges::any_of(model.parts, [](const ModelPart& part) {
+      const Shape* const shape = sole_shape(part.body);
+      return shape != nullptr && shape->kind == ShapeKind::halfspace;
+    });
     robot_ = std::make_unique<fcl::DynamicAABBTreeCollisionManager<double>>();
     world_ = std::make_unique<fcl::DynamicAABBTreeCollisionManager<double>>();
     asked_.assign(model.parts.size() * model.parts.size(), 0);
@@ -86,6 +91,11 @@ class FclConfigurations final : public ConfigurationQuery {
 
   void solve(ConfigurationTask task, const Configurations& configurations,
              std::span<ConfigurationAnswer> answers) override {
+    // FCL has no distance to a half-space.
+    if (task == ConfigurationTask::distance && has_halfspace_) {
+      std::ranges::fill(answers, ConfigurationAnswer{});
+      return;
+    }
     for (std::size_t i = 0; i < answers.size(); ++i) {
       for (std::uint32_t step = 0; step < configurations.steps; ++step) {
         Asked asked{this, {}};
@@ -163,7 +173,7 @@ class FclConfigurations final : public ConfigurationQuery {
     if (!asked.self->asks(a, b)) return false;
     const fcl::DistanceRequest<double> request;
     fcl::DistanceResult<double> result;
-    // What is nearer than this is not looked for.
+    // What is farther than this is not looked for.
     result.min_distance = least;
     const double distance = fcl::distance(a, b, request, result);
     if (distance < found.distance) {
@@ -198,7 +208,8 @@ class FclConfigurations final : public ConfigurationQuery {
 
   const ConfigurationModel* model_ = nullptr;
   std::vector<std::unique_ptr<Object>> objects_;  // one a part; null for one without points
-  std::vector<char> asked_;                       // of two parts, in either order
+  bool has_halfspace_ = false;
+  std::vector<char> asked_;  // of two parts, in either order
   std::unique_ptr<fcl::DynamicAABBTreeCollisionManager<double>> robot_, world_;
 };
 
@@ -225,7 +236,8 @@ std::vector<ConfigurationEntry> peers_fcl_configurations() {
        .supports =
            [](const ConfigurationModel& model) {
              return std::ranges::all_of(model.parts, [](const ModelPart& part) {
-               const bool is_plain = part.body.mesh || part.body.parts.size() <= 1;
+               const bool is_plain = part.body.mesh || part.body.part_count() == 0 ||
+                                     sole_shape(part.body) != nullptr;
                return is_plain && !part.body.has_inside();
              });
            },

@@ -141,6 +141,109 @@ TEST(Configurations, PartsWithoutPointsAndHalfSpacesAreTaken) {
   }
 }
 
+// A matrix of a file may be off by a thousandth, and is taken as it stands: this one makes all longer by 4e-4.
+TEST(Configurations, MatricesThatAreOffAreTakenAsTheyStand) {
+  ConfigurationModel model = two_balls();
+  model.parts[0].body = box({10, 10, 10});
+  const Pose longer = {1.0004 * Mat3d::Identity(), Vec3d::Zero()};
+  for (const bool of_part : {false, true}) {
+    model.parts[0].pose = of_part ? longer : Pose{};
+    const std::vector<Pose> poses = {of_part ? Pose{} : longer};
+    for (const double x : {10.998, 11.003, 11.005}) {
+      model.parts[1].pose = at(x, 0, 0);
+      const auto right = ask(exact(), model, ConfigurationTask::free, poses).answer;
+      EXPECT_EQ(right, x < 11.004 ? Answer::overlapping : Answer::separated);
+      for (const ConfigurationEntry* entry : asked(ConfigurationTask::free)) {
+        if (entry->info.origin != Origin::ours) continue;
+        EXPECT_EQ(ask(*entry, model, ConfigurationTask::free, poses).answer, right)
+            << entry->info.name << " at " << x;
+      }
+    }
+  }
+}
+
+// The pair that was in contact last is not one of the next model.
+TEST(Configurations, AModelLeavesNothingToASmallerOne) {
+  ConfigurationModel large = two_balls();
+  large.parts.insert(large.parts.begin() + 1, 1000, {ball(0.5), ModelPart::world, at(0, 0, 90)});
+  const auto last = static_cast<std::uint32_t>(large.parts.size() - 1);
+  large.pairs = {{0, last}};
+  const ConfigurationModel small = two_balls();
+  for (const ConfigurationEntry* entry : asked(ConfigurationTask::free)) {
+    const auto query = query_of(*entry);
+    const auto answer_of = [&](const ConfigurationModel& model, double x) {
+      const Pose pose = at(x, 0, 0);
+      ConfigurationAnswer answer;
+      query->bind(model);
+      query->solve(ConfigurationTask::free, {{&pose, 1}, 1, 1}, {&answer, 1});
+      return answer;
+    };
+    EXPECT_EQ(answer_of(large, 1).pair, (IndexPair{0, last})) << entry->info.name;
+    EXPECT_EQ(answer_of(small, 3).answer, Answer::separated) << entry->info.name;
+    EXPECT_EQ(answer_of(small, 1).pair, (IndexPair{0, 1})) << entry->info.name;
+  }
+}
+
+// A link is a half-space below -5 and a ball, and meets the world by either; and so is a compound of both.
+TEST(Configurations, AHalfSpaceMovesWithALink) {
+  Shape below;
+  below.kind = ShapeKind::halfspace;
+  below.offset = -5;
+  for (const bool in_one : {false, true}) {
+    ConfigurationModel model = two_balls();
+    if (in_one) {
+      model.parts[0].body.parts.push_back({below, {}, 0});
+    } else {
+      model.parts.push_back({{nullptr, {{below, {}, 0}}}, 0, {}});
+      model.pairs = {{0, 1}, {1, 2}};
+    }
+    for (const ConfigurationEntry& entry : registry::entries<ConfigurationEntry>()) {
+      if (!is_built(entry.info) || entry.approximate) continue;
+      const auto answer_at = [&](double z) {
+        return ask(entry, model, ConfigurationTask::free, {at(0, 0, z)}).answer;
+      };
+      EXPECT_EQ(answer_at(3), Answer::separated) << entry.info.name << in_one;
+      EXPECT_EQ(answer_at(1), Answer::overlapping) << entry.info.name << in_one;
+      EXPECT_EQ(answer_at(5), Answer::overlapping) << entry.info.name << in_one;
+    }
+  }
+}
+
+// Squares of such lengths overflow or underflow, in floats or in doubles.
+TEST(Configurations, NoLengthIsTooLongOrTooShort) {
+  for (const double size : {1e-170, 1e-40, 1e-21, 1e-14, 1e14, 1e17, 1e25, 1e50, 1e170}) {
+    ConfigurationModel model = two_balls();
+    model.parts[0].body = model.parts[1].body = ball(size);
+    for (const ConfigurationEntry* entry : asked(ConfigurationTask::free)) {
+      if (entry->info.origin != Origin::ours) continue;
+      const auto answer_at = [&](double x) {
+        return ask(*entry, model, ConfigurationTask::free, {at(x * size, 0, 0)}).answer;
+      };
+      EXPECT_EQ(answer_at(1.5), Answer::overlapping) << entry->info.name << " " << size;
+      EXPECT_EQ(answer_at(2.5), Answer::separated) << entry->info.name << " " << size;
+    }
+  }
+}
+
+// Peers of convex shapes and meshes know no placed part, and FCL no distance to a half-space.
+TEST(Configurations, PeersRefuseWhatTheyDoNotHave) {
+  ConfigurationModel placed = two_balls();
+  placed.parts[0].body.parts[0].pose = at(5, 0, 0);
+  ConfigurationModel ground = two_balls();
+  Shape below;
+  below.kind = ShapeKind::halfspace;
+  ground.parts[1].body = {nullptr, {{below, {}, 0}}};
+  for (const ConfigurationEntry& entry : registry::entries<ConfigurationEntry>()) {
+    if (entry.info.origin != Origin::peer) continue;
+    EXPECT_TRUE(entry.supports(two_balls())) << entry.info.name;
+    EXPECT_FALSE(entry.supports(placed)) << entry.info.name;
+    if (!is_built(entry.info) || !entry.supports(ground)) continue;
+    const auto far = ask(entry, ground, ConfigurationTask::distance, {at(0, 0, 3)});
+    EXPECT_EQ(far.answer, Answer::unknown) << entry.info.name;
+    EXPECT_EQ(far.status, Status::unsupported) << entry.info.name;
+  }
+}
+
 // Links of balls, boxes and meshes in a row, each turned against the one before, among boxes.
 ConfigurationModel some_robot(Random& random, bool meshes) {
   ConfigurationModel model;
