@@ -131,7 +131,7 @@ class ConfigurationBatch final : public Batch {
     const ConfigurationModel& robot = cases_.target(i);
     const auto poses = asked_poses(task, cases_[i], robot.links);
     bool names_contact = true;
-    if (answer.answer == Answer::overlapping) {
+    if (answer.answer != Answer::separated && answer.answer != Answer::unknown) {
       names_contact = ConfigurationTruth(robot, PairAnswers::exact).names_contact(answer, poses);
     }
     return grade_configuration(task, answer, truth(i, task), names_contact,
@@ -201,7 +201,7 @@ const Kind& configuration_kind() {
                  "the first step in contact counts: a later one is missed, an earlier one false. "
                  "*Inexact*: a named pair that shares no point, or a distance that is off by more "
                  "than 1e-11 of the reach, which is the greatest distance of a link or an obstacle "
-                 "from the origin.",
+                 "from the origin, and at least 1 m.",
        .tasks = configuration_tasks,
        .draw_number = 7},
       {.options = configuration_options,

@@ -72,7 +72,7 @@ struct DrawnMotion {
   std::span<const Pose> last(std::uint32_t links) const { return std::span(poses).last(links); }
 };
 
-// What links are made of, and where motions end: anywhere, or within 1e-6 of contact.
+// What links are made of, and where motions end: anywhere, or at contact, up to 1e-6 m.
 std::vector<Family> configuration_families();
 ConfigurationModel drawn_robot(std::uint32_t family, families::Draws& draws);
 DrawnMotion drawn_motion(std::uint32_t family, const ConfigurationModel& robot,

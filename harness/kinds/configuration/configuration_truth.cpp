@@ -60,7 +60,7 @@ bool ConfigurationTruth::touches(const IndexPair& pair, std::span<const Pose> li
 
 bool ConfigurationTruth::names_contact(const ConfigurationAnswer& answer,
                                        std::span<const Pose> poses) {
-  if (answer.answer != Answer::overlapping) return true;
+  if (answer.answer == Answer::separated || answer.answer == Answer::unknown) return true;
   const std::size_t steps = poses.size() / model_.links;
   const std::size_t step = answer.step == ConfigurationAnswer::none ? 0 : answer.step;
   return step < steps && touches(answer.pair, poses.subspan(step * model_.links, model_.links));

@@ -80,6 +80,10 @@ TEST(SceneConfigurations, ShapesOfOneNameThatKeepTogetherAreALink) {
   EXPECT_TRUE(truth.touches({1, 2}, poses.first(1)));
   EXPECT_FALSE(truth.touches({0, 2}, poses.first(1)));
   EXPECT_FALSE(truth.touches({0, 1}, poses.first(1))) << "a pair that is not asked";
+  for (const Answer contact : {Answer::overlapping, Answer::touching}) {
+    EXPECT_FALSE(truth.names_contact(answer_of(contact), poses.first(1)));
+  }
+  EXPECT_TRUE(truth.names_contact(answer_of(Answer::separated), poses.first(1)));
 }
 
 TEST(SceneConfigurations, RefuseWhatHasNoRobot) {
