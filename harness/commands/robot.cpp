@@ -174,9 +174,12 @@ queries = 1000
 rounds = 6
 )";
 
+// Of what is written as `timed_file`.
+fs::path times_folder(const fs::path& timed_file) { return timed_file.parent_path() / "times"; }
+
 // Times configuration queries, as `run` does with the file. Returns the exit status.
 int print_times(const fs::path& file) {
-  const fs::path folder = file.parent_path() / "times";
+  const fs::path folder = times_folder(file);
   const cells::CellRequest request = cells::read_cells(file);
   const cells::CellRunResult result =
       cells::run_cells(request, folder, record::FolderStart::overwrite, [](const std::string&) {});
@@ -213,6 +216,9 @@ int look_at(const RobotOptions& options) {
   std::vector<files::NamedFile> outputs;
   for (const fs::path& file : {scene_file, pairs_file, srdf_file, timed_file}) {
     outputs.push_back({"--out", file});
+  }
+  for (const fs::path& file :
+       {scene_file, pairs_file, srdf_file, timed_file, times_folder(timed_file)}) {
     std::error_code error;
     if (!options.overwrite && fs::exists(file, error)) {
       throw base::InputError(file.string() + " is there; expected another --out, or --overwrite");

@@ -82,9 +82,10 @@ const Kind& kind_of_columns(const QuestionInput& input, const std::string& heade
   };
   if (has("origin_x") || has("direction_x")) return ray_kind_at(input);
   if (has("min_x") || has("max_x")) return box_kind();
-  if (has("x") && has("y") && has("z")) return point_kind();
   const std::string target = input.text("--in");
-  if (target.ends_with(".urdf") || is_scene(target)) return configuration_kind();
+  if (target.ends_with(".urdf")) return configuration_kind();  // joints may be called x, y and z
+  if (has("x") && has("y") && has("z")) return point_kind();
+  if (is_scene(target)) return configuration_kind();
   const bool is_numbers = header.find_first_not_of("0123456789.,+-eE ") == std::string::npos;
   if (is_numbers && !header.empty() && columns.size() >= 3 && columns.size() <= 7) {
     return feature_kind();

@@ -21,7 +21,7 @@ class PoseLanes final : public PairSearch {
 
   void solve(ConfigurationTask task, const Configurations& configurations,
              std::span<ConfigurationAnswer> answers) override {
-    if (task == ConfigurationTask::distance || !is_bounded_) {
+    if (!is_bounded_) {
       PairSearch::solve(task, configurations, answers);
     } else if (task == ConfigurationTask::free) {
       for (std::size_t first = 0; first < answers.size(); first += pose_lanes) {

@@ -12,7 +12,7 @@
 //          5. Pairs that are left open are asked, those first whose parts were most often in contact: convex
 //             ones by the narrow phase, others by the concave phase. The first contact ends it.
 //          6. motion: step by step, until one is in contact.
-//          7. distance: lower bounds by balls and boxes; pairs are measured from the least on, until it is beyond
+//          7. distance, by `fixed-pairs`: lower bounds by balls and boxes; pairs are measured from the least on, until it is beyond
 //             the least distance.
 // Departs: VAMP's lanes are configurations spread over a motion; here they follow each other, since the first contact is
 //          asked.
@@ -41,13 +41,13 @@ class FixedPairs final : public PairSearch {
 };
 
 template <class Search>
-ConfigurationEntry entry(const char* name, const char* citation) {
-  return {
-      .info = {.name = name, .citation = citation},
-      .tasks = {ConfigurationTask::free, ConfigurationTask::distance, ConfigurationTask::motion},
-      .make = [](const ConfigurationSettings& settings) {
-        return std::make_unique<Search>(settings);
-      }};
+ConfigurationEntry entry(const char* name, const char* citation,
+                         std::vector<ConfigurationTask> tasks) {
+  return {.info = {.name = name, .citation = citation},
+          .tasks = std::move(tasks),
+          .make = [](const ConfigurationSettings& settings) {
+            return std::make_unique<Search>(settings);
+          }};
 }
 
 }  // namespace
@@ -56,16 +56,20 @@ ConfigurationEntry entry(const char* name, const char* citation) {
 namespace touchstone::entries {
 
 std::vector<ConfigurationEntry> configuration_link_pairs() {
+  using enum ConfigurationTask;
   return {
       entry<FixedPairs>("fixed-pairs",
-                        "all pairs that are asked, by balls and boxes, then a narrow phase"),
+                        "all pairs that are asked, by balls and boxes, then a narrow phase",
+                        {free, distance, motion}),
       entry<WorldTree>("world-tree",
                        "a tree of the obstacles, asked for a ball around each link; else as "
-                       "fixed-pairs"),
+                       "fixed-pairs",
+                       {free, motion}),
       entry<PoseLanes>("pose-lanes",
                        "W. Thomason, Z. Kingston, L. E. Kavraki, \"Motions in microseconds via "
                        "vectorized sampling-based planning\", ICRA 2024: sixteen configurations "
-                       "at once, by balls; else as fixed-pairs")};
+                       "at once, by balls; else as fixed-pairs",
+                       {free, motion})};
 }
 
 }  // namespace touchstone::entries

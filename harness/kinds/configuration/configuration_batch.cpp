@@ -130,11 +130,12 @@ class ConfigurationBatch final : public Batch {
   Graded grade(ConfigurationTask task, std::size_t i, const ConfigurationAnswer& answer) {
     const ConfigurationModel& robot = cases_.target(i);
     const auto poses = asked_poses(task, cases_[i], robot.links);
-    bool names_contact = true;
-    if (answer.answer == Answer::overlapping) {
-      names_contact = ConfigurationTruth(robot, PairAnswers::exact).names_contact(answer, poses);
+    bool names_pair = true;
+    if (answer.pair.a != ConfigurationAnswer::none || answer.answer != Answer::separated) {
+      // The distance is that of this form.
+      names_pair = ConfigurationTruth(robot, PairAnswers::exact).names_pair(answer, poses);
     }
-    return grade_configuration(task, answer, truth(i, task), names_contact,
+    return grade_configuration(task, answer, truth(i, task), names_pair,
                                configuration_reach(robot, poses));
   }
 
@@ -199,9 +200,10 @@ const Kind& configuration_kind() {
        .contract = "configuration query",
        .legend = "A contact is a pair of parts that is asked and shares a point; of a motion, also "
                  "the first step in contact counts: a later one is missed, an earlier one false. "
-                 "*Inexact*: a named pair that shares no point, or a distance that is off by more "
+                 "*Inexact*: a named pair that is not in contact or so near, or a distance that is "
+                 "off by more "
                  "than 1e-11 of the reach, which is the greatest distance of a link or an obstacle "
-                 "from the origin.",
+                 "from the origin, and at least 1 m.",
        .tasks = configuration_tasks,
        .draw_number = 7},
       {.options = configuration_options,

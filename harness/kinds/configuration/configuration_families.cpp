@@ -144,8 +144,8 @@ DrawnMotion drawn_motion(std::uint32_t family, const ConfigurationModel& robot, 
       ends = touches(1);
     }
     double low = 0, high = 1;
-    // No point moves by more than 4 metres.
-    while (begins != ends && high - low > 1e-7) {
+    // No point moves by more than 20 metres.
+    while (begins != ends && high - low > 5e-8) {
       const double middle = (low + high) / 2;
       (touches(middle) == begins ? low : high) = middle;
     }

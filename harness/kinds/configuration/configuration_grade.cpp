@@ -18,7 +18,7 @@ double configuration_reach(const ConfigurationModel& model, std::span<const Pose
 }
 
 Graded grade_configuration(ConfigurationTask task, const ConfigurationAnswer& answer,
-                           const ConfigurationAnswer& exact, bool names_contact, double reach) {
+                           const ConfigurationAnswer& exact, bool names_pair, double reach) {
   const bool is_contact = exact.answer == Answer::overlapping;
   const auto with = [&](Grade grade) { return Graded{grade, is_contact}; };
   if (const auto by_status = grade_of_status(answer.status, answer.answer == Answer::unknown)) {
@@ -30,7 +30,7 @@ Graded grade_configuration(ConfigurationTask task, const ConfigurationAnswer& an
   if (task == ConfigurationTask::motion && contact && answer.step != exact.step) {
     return with(answer.step < exact.step ? Grade::false_hit : Grade::missed);
   }
-  if (contact && !names_contact) return with(Grade::inexact);
+  if (!names_pair) return with(Grade::inexact);
   if (task == ConfigurationTask::distance) {
     const bool is_same = answer.distance == exact.distance;  // infinite without pairs
     const bool is_near = std::abs(answer.distance - exact.distance) <= configuration_margin * reach;

@@ -38,11 +38,13 @@ class ConfigurationTruth {
                              std::uint32_t steps);
   // Whether the pair is asked and shares a point; false if that is not known.
   bool touches(const IndexPair& pair, std::span<const Pose> links);
-  // True for answers without contact, and for those that name a pair in contact. `poses` are those of the answer's
-  // configuration or motion.
-  bool names_contact(const ConfigurationAnswer& answer, std::span<const Pose> poses);
+  // Of a contact: whether it names a pair in contact. Of a finite distance: whether that is the distance of the pair that
+  // it names. True for all other answers. `poses` are those of the answer's configuration or motion.
+  bool names_pair(const ConfigurationAnswer& answer, std::span<const Pose> poses);
 
  private:
+  Outcome outcome_of(ConcaveTask task, const IndexPair& pair, std::span<const Pose> links);
+
   const ConfigurationModel& model_;
   std::unique_ptr<ConfigurationQuery> query_;
   std::unique_ptr<ConcavePhase> phase_;
@@ -72,7 +74,7 @@ struct DrawnMotion {
   std::span<const Pose> last(std::uint32_t links) const { return std::span(poses).last(links); }
 };
 
-// What links are made of, and where motions end: anywhere, or within 1e-6 of contact.
+// What links are made of, and where motions end: anywhere, or at contact, up to 1e-6 m.
 std::vector<Family> configuration_families();
 ConfigurationModel drawn_robot(std::uint32_t family, families::Draws& draws);
 DrawnMotion drawn_motion(std::uint32_t family, const ConfigurationModel& robot,

@@ -45,7 +45,7 @@ TimedGrade grade_set(const SetInput& input, std::span<const ConfigurationAnswer>
     const ConfigurationAnswer &answer = answers[i], &exact = input.right->answers[i];
     const double reach = configuration_reach(input.made->model, poses);
     sum.add(grade_configuration(input.task, answer, exact,
-                                input.right->truth.names_contact(answer, poses), reach),
+                                input.right->truth.names_pair(answer, poses), reach),
             static_cast<std::int64_t>(i));
     sum.hits += answer.answer == Answer::overlapping ? 1 : 0;
     sum.true_hits += exact.answer == Answer::overlapping ? 1 : 0;

@@ -1,8 +1,10 @@
 // Makes configuration queries, and says what is right.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "algorithms/registry.h"
+#include "harness/kinds/configuration/configuration_grade.h"
 #include "harness/kinds/configuration/configuration_kind.h"
 #include "harness/kinds/mesh/mesh_kind.h"
 
@@ -47,6 +49,12 @@ ConfigurationAnswer ConfigurationTruth::answer(ConfigurationTask task, std::span
 
 bool ConfigurationTruth::touches(const IndexPair& pair, std::span<const Pose> links) {
   if (!std::ranges::binary_search(model_.pairs, pair)) return false;
+  const Answer answer = outcome_of(ConcaveTask::intersect, pair, links).answer;
+  return answer == Answer::touching || answer == Answer::overlapping;
+}
+
+Outcome ConfigurationTruth::outcome_of(ConcaveTask task, const IndexPair& pair,
+                                       std::span<const Pose> links) {
   const auto placed = [&](std::uint32_t i) -> PlacedConcave {
     const ModelPart& part = model_.parts[i];
     return {i,
@@ -54,13 +62,22 @@ bool ConfigurationTruth::touches(const IndexPair& pair, std::span<const Pose> li
   };
   Outcome outcome;
   std::vector<IndexPair> touching;
-  phase_->solve(ConcaveTask::intersect, placed(pair.a), placed(pair.b), outcome, touching);
-  return outcome.answer == Answer::touching || outcome.answer == Answer::overlapping;
+  phase_->solve(task, placed(pair.a), placed(pair.b), outcome, touching);
+  return outcome;
 }
 
-bool ConfigurationTruth::names_contact(const ConfigurationAnswer& answer,
-                                       std::span<const Pose> poses) {
-  if (answer.answer != Answer::overlapping) return true;
+bool ConfigurationTruth::names_pair(const ConfigurationAnswer& answer,
+                                    std::span<const Pose> poses) {
+  if (answer.answer == Answer::unknown) return true;
+  if (answer.answer == Answer::separated) {
+    if (!std::isfinite(answer.distance)) return true;
+    if (!std::ranges::binary_search(model_.pairs, answer.pair)) return false;
+    const Outcome measured = outcome_of(ConcaveTask::distance, answer.pair, poses);
+    if (measured.answer == Answer::unknown) return true;
+    return measured.answer == Answer::separated &&
+           std::abs(measured.distance - answer.distance) <=
+               configuration_margin * configuration_reach(model_, poses);
+  }
   const std::size_t steps = poses.size() / model_.links;
   const std::size_t step = answer.step == ConfigurationAnswer::none ? 0 : answer.step;
   return step < steps && touches(answer.pair, poses.subspan(step * model_.links, model_.links));

@@ -95,6 +95,12 @@ TEST_F(RobotCommand, CountsContactsAndWhatSrdfHides) {
   EXPECT_THAT(twice.text, HasSubstr("scene.toml is there; expected another --out, or --overwrite"));
   const scene::Robot again = scene::read_robot(path("rail.urdf"), path("out/proposed.srdf"));
   EXPECT_FALSE(again.disabled.empty());
+  for (const char* file : {"scene.toml", "pairs.csv", "proposed.srdf", "configurations.toml"}) {
+    std::filesystem::remove(path("out") + "/" + file);
+  }
+  const Ran timed = run_program("robot " + path("rail.urdf") + " --out " + path("out"));
+  EXPECT_EQ(timed.status, 2);
+  EXPECT_THAT(timed.text, HasSubstr("times is there; expected another --out, or --overwrite"));
 }
 
 TEST_F(RobotCommand, TakesRecordedConfigurations) {

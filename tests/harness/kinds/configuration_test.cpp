@@ -80,6 +80,15 @@ TEST(SceneConfigurations, ShapesOfOneNameThatKeepTogetherAreALink) {
   EXPECT_TRUE(truth.touches({1, 2}, poses.first(1)));
   EXPECT_FALSE(truth.touches({0, 2}, poses.first(1)));
   EXPECT_FALSE(truth.touches({0, 1}, poses.first(1))) << "a pair that is not asked";
+  for (const Answer contact : {Answer::overlapping, Answer::touching}) {
+    EXPECT_FALSE(truth.names_pair(answer_of(contact), poses.first(1)));
+  }
+  EXPECT_TRUE(truth.names_pair(answer_of(Answer::separated), poses.first(1)));
+  ConfigurationAnswer far = truth.answer(ConfigurationTask::distance, poses.last(1), 1);
+  EXPECT_EQ(far.pair, (IndexPair{1, 2}));
+  EXPECT_TRUE(truth.names_pair(far, poses.last(1)));
+  far.pair = {0, 2};
+  EXPECT_FALSE(truth.names_pair(far, poses.last(1))) << "this one is farther";
 }
 
 TEST(SceneConfigurations, RefuseWhatHasNoRobot) {

@@ -223,6 +223,13 @@ TEST_F(QueryKinds, ConfigurationsOfARobotAreFreeOrNot) {
   const std::string distance = shown(asked + " --task distance");
   EXPECT_THAT(distance, ContainsRegex("configuration 1\n  exact +free +0.0[45]"));
   EXPECT_THAT(shown(asked + " --task motion"), HasSubstr("first in step 2"));
+  std::string level = small_robot;  // joints may be called as the columns of points are
+  for (const auto& [from, to] : {std::pair("turn", "x"), {"lift", "y"}, {"slide", "z"}}) {
+    level.replace(level.find(from), std::string(from).size(), to);
+  }
+  const std::string named = write("named.csv", "x,y,z\n0,0,0.5\n");
+  EXPECT_THAT(shown(named + " --in " + write("level.urdf", level) + " --with exact"),
+              ContainsRegex("exact +contact +rail, ball"));
   expect_refusal("query " + rows + " --kind configuration", "--in is missing", folder);
   expect_refusal("query " + rows + " --kind configuration --in " + rows,
                  "expected a robot (.urdf) or a scene (.toml)", folder);
