@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdio_ext.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -35,6 +36,26 @@ std::filesystem::path temporary_name(std::filesystem::path file, int attempt) {
   return file;
 }
 
+// The target of a symbolic link is written instead of the link.
+std::filesystem::path written_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(file, error)) return file;
+  const std::filesystem::path target = std::filesystem::canonical(file, error);
+  return error ? file : target;
+}
+
+// True if a file without a name could be made beside this one, which may have a temporary name. File systems need not have
+// such files.
+bool has_room_beside(const std::filesystem::path& file) {
+  struct stat status;
+  if (lstat(temporary_name(file, 0).c_str(), &status) == 0 || errno != ENOENT) return false;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (descriptor < 0) return false;
+  ::close(descriptor);
+  return true;
+}
+
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   if (a.empty() || b.empty() || is_device(a)) return false;
   if (a.lexically_normal().string().starts_with("/dev/")) return false;
@@ -47,7 +68,14 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 }  // namespace
 
 void check_output(const std::filesystem::path& file) {
-  if (!is_device(file)) OutputFile{file};
+  if (is_device(file)) return;
+  std::error_code ignored;
+  // A kill leaves nothing of a file without a name.
+  if (!file.empty() && !std::filesystem::is_directory(file, ignored) &&
+      has_room_beside(written_file(file))) {
+    return;
+  }
+  OutputFile{file};
 }
 
 void expect_other_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
@@ -96,11 +124,7 @@ OutputFile::OutputFile(std::filesystem::path file, Keep keep) : file_(std::move(
     descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | before, 0666);
     flushed_ = descriptor < 0 ? 0 : lseek(descriptor, 0, SEEK_END);
   } else {
-    // The target of a symbolic link is replaced instead of the link.
-    if (std::filesystem::is_symlink(file_, ignored)) {
-      const std::filesystem::path target = std::filesystem::canonical(file_, ignored);
-      if (!ignored) file_ = target;
-    }
+    file_ = written_file(file_);
     for (int attempt = 0; descriptor < 0; ++attempt) {
       temporary_ = temporary_name(file_, attempt);
       descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -12,7 +12,8 @@
 
 namespace touchstone::files {
 
-// Throws if OutputFile's constructor would, and leaves nothing behind. Call it before long work.
+// Throws if OutputFile's constructor would, and leaves nothing behind, even if the process is killed meanwhile where the
+// file system has files without names. Call it before long work.
 void check_output(const std::filesystem::path& file);
 
 // A file, and the option or argument that names it.

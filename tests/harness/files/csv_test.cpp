@@ -1,12 +1,15 @@
 #include "harness/files/csv.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <bit>
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -253,6 +256,17 @@ TEST_F(Csv, CheckOutputLeavesNothing) {
   EXPECT_THAT(folder.names(), IsEmpty());
   EXPECT_THROW(files::check_output(folder.path() / "none" / "out.csv"), base::InputError);
   EXPECT_THROW(files::check_output(folder.path()), base::InputError);
+}
+
+// A kill at any moment leaves nothing where no name is made.
+TEST_F(Csv, CheckOutputMakesNoNameWhereThatIsPossible) {
+  const int nameless = open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
+  if (nameless < 0) GTEST_SKIP() << "the file system has no files without names";
+  close(nameless);
+  const auto before = std::filesystem::file_time_type{} + std::chrono::seconds(1);
+  std::filesystem::last_write_time(folder.path(), before);
+  files::check_output(folder.path() / "out.csv");
+  EXPECT_EQ(std::filesystem::last_write_time(folder.path()), before);
 }
 
 TEST_F(Csv, AWriterThatKeepsRowsLeavesThoseThatWereFlushed) {
