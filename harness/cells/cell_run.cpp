@@ -29,6 +29,8 @@ struct Graded {
   double seconds = 0;      // of one answer to all queries, warm if it is in time
   std::uint64_t hash = 0;  // of the answers
   process::ItemState state = process::ItemState::not_run;
+
+  bool takes_all() const { return grade.not_asked == 0; }
 };
 
 std::vector<Graded> grade(const kinds::TimedSet& cell, double time_limit) {
@@ -162,7 +164,8 @@ class CellRun {
       for (std::size_t i = 0; i < graded.size(); ++i) {
         const kinds::TimedContestant& contestant = cell.contestants[i];
         if (!is_graded) write_grade(planned, cell, contestant, graded[i]);
-        if (graded[i].state != process::ItemState::done || graded[i].seconds > request_.time_limit)
+        if (graded[i].state != process::ItemState::done || !graded[i].takes_all() ||
+            graded[i].seconds > request_.time_limit)
           continue;
         members.push_back({.planned = &planned,
                            .contestant = &contestant,
@@ -204,7 +207,7 @@ class CellRun {
     row.hits = graded.grade.hits;
     row.true_hits = graded.grade.true_hits;
     if (row.hits >= 0) row.hit_hash = base::to_hex(graded.grade.hit_hash);
-    row.status = to_string(graded.state);
+    row.status = graded.takes_all() ? to_string(graded.state) : to_string(Status::unsupported);
     note(row);
     folder_.write(grades_file, row);
   }

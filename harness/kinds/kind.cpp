@@ -117,7 +117,10 @@ std::string_view to_string(Grade grade) {
 }
 
 void GradeCount::add(const Graded& graded, std::int64_t index) {
-  if (graded.grade == Grade::not_asked) return;
+  if (graded.grade == Grade::not_asked) {
+    ++not_asked;
+    return;
+  }
   ++cases;
   contacts += graded.is_contact ? 1 : 0;
   bool is_bad = false;
@@ -138,9 +141,9 @@ void GradeCount::add(const Graded& graded, std::int64_t index) {
 
 void GradeCount::add(const GradeCount& other) {
   for (const auto count :
-       {&GradeCount::cases, &GradeCount::contacts, &GradeCount::unresolved, &GradeCount::right,
-        &GradeCount::near, &GradeCount::missed, &GradeCount::false_hits, &GradeCount::inexact,
-        &GradeCount::bound, &GradeCount::gave_up, &GradeCount::failed}) {
+       {&GradeCount::not_asked, &GradeCount::cases, &GradeCount::contacts, &GradeCount::unresolved,
+        &GradeCount::right, &GradeCount::near, &GradeCount::missed, &GradeCount::false_hits,
+        &GradeCount::inexact, &GradeCount::bound, &GradeCount::gave_up, &GradeCount::failed}) {
     this->*count += other.*count;
   }
   if (first_wrong < 0) first_wrong = other.first_wrong;

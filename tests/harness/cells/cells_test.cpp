@@ -129,6 +129,39 @@ TEST(Cells, OfMeshes) {
   expect_sound(run(request, folder.path() / "out"), request.cells.size());
 }
 
+// Whoever does not take a query is not timed on the others.
+TEST(Cells, OfAContestantThatTakesNotAllQueries) {
+  const TemporaryFolder folder;
+  auto request = request_of(folder, "kind = \"points\"\nmeshes = [\"torus-200\"]\nqueries = 64\n");
+  const auto contestant = [](const char* name, kinds::Grade of_second) {
+    return kinds::TimedContestant{.name = name,
+                                  .answer = [] {},
+                                  .grade =
+                                      [=] {
+                                        kinds::TimedGrade sum;
+                                        sum.add({kinds::Grade::right, false}, 0);
+                                        sum.add({of_second, false}, 1);
+                                        return sum;
+                                      },
+                                  .hash = [] { return std::uint64_t{1}; }};
+  };
+  request.cells = {{.group = "some", .name = "two", .make = [=] {
+                      return kinds::TimedSet{
+                          .queries = 2,
+                          .graded = 2,
+                          .contestants = {contestant("all", kinds::Grade::right),
+                                          contestant("one", kinds::Grade::not_asked)}};
+                    }}};
+  const Ran ran = run(request, folder.path() / "out");
+  EXPECT_FALSE(ran.result.ours_wrong);
+  ASSERT_EQ(ran.times.size(), 2U);
+  for (const stats::CellTimeRow& row : ran.times) {
+    const bool takes_all = row.grade.algorithm == "all";
+    EXPECT_EQ(row.grade.status, takes_all ? "ok" : "unsupported");
+    EXPECT_EQ(row.samples > 0, takes_all);
+  }
+}
+
 // Casts miss nothing, substeps do; answers do not depend on the threads.
 TEST(Cells, OfMotion) {
   const TemporaryFolder folder;
