@@ -63,6 +63,11 @@ inline Pose placed_within(const Pose& outer, const Pose& inner) {
   return placed;
 }
 
+// Where a part is: `links` are the poses of the links in the world.
+inline Pose placed(const ModelPart& part, std::span<const Pose> links) {
+  return part.link == ModelPart::world ? part.pose : placed_within(links[part.link], part.pose);
+}
+
 // Configurations behind each other: of each the poses of all links in the world.
 struct Configurations {
   std::span<const Pose> poses;
@@ -90,6 +95,21 @@ struct ConfigurationAnswer {
   std::uint32_t step = none;        // of a motion: the first configuration in contact, from 0
   double distance = Outcome::none;  // metres, of `distance`; 0 in contact, infinite without pairs
 };
+
+// Writes an answer for each configuration, which is answer_of(links); of a motion that of the first step that is not free,
+// or not known to be, with its number.
+template <class AnswerOf>
+void answer_steps(ConfigurationTask task, const Configurations& configurations,
+                  std::span<ConfigurationAnswer> answers, const AnswerOf& answer_of) {
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    for (std::uint32_t step = 0; step < configurations.steps; ++step) {
+      answers[i] = answer_of(configurations.of(i, step));
+      if (answers[i].answer == Answer::separated) continue;
+      if (task == ConfigurationTask::motion) answers[i].step = step;
+      break;
+    }
+  }
+}
 
 struct ConfigurationSettings {
   // What answers for pairs of convex parts, and for others, for algorithms that leave this to another one; never null.

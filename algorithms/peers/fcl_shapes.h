@@ -1,4 +1,4 @@
-// Our shapes and poses as FCL's. Used by fcl_narrow_phase.cpp and cast/fcl_casts.cpp.
+// Our shapes and poses as FCL's.
 #pragma once
 
 #include <fcl/geometry/shape/box.h>

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "algorithms/core/double_double.h"
+#include "algorithms/core/orthonormal_error.h"
 #include "algorithms/core/pose.h"
 #include "algorithms/core/vec.h"
 
@@ -103,10 +104,6 @@ inline std::optional<Mat3d> rotation_of_any(const std::array<double, 4>& q) {
   return rotation_of({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
 }
 
-// By how much the columns of a matrix fail to be orthonormal.
-inline double orthonormal_error(const Mat3d& m) {
-  return (m.transpose() * m - Mat3d::Identity()).cwiseAbs().maxCoeff();
-}
 // Whether a matrix of a file is used as a rotation, as it stands: to a thousandth, and right-handed.
 inline bool is_rotation(const Mat3d& m) {
   return orthonormal_error(m) <= 1e-3 && !(m.determinant() < 0);

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "harness/base/error.h"
 #include "harness/base/progress.h"
@@ -173,6 +174,12 @@ int run(const CheckOptions& options, check::CheckMode mode, const std::string& c
   return report.ours_wrong().empty() ? exit_done : exit_measured_wrong;
 }
 
+std::string names_of_kinds() {
+  std::vector<std::string> names;
+  for (const kinds::Kind* kind : kinds::checked_kinds()) names.emplace_back(kind->name());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // Adds an option for each kind by its old name.
 void add_older_spellings(Arguments& command, check::CaseSelection& selection) {
   for (const kinds::Kind* kind : kinds::checked_kinds()) {
@@ -217,8 +224,7 @@ void add_check(Arguments command) {
           "options")
       .is_read()
       .once_each();
-  command.text("--kind", options->selection.kinds,
-               "Only these kinds: pair, box, mesh, ray, point, cast, feature, scene-ray, configuration");
+  command.text("--kind", options->selection.kinds, "Only these kinds: " + names_of_kinds());
   command.text("--regimes", options->selection.regimes,
                "Regimes and families of cases: names joined by commas (default: all)");
   command.text("--group,--groups", options->selection.groups, "Groups of these, joined by commas");

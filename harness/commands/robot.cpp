@@ -174,7 +174,7 @@ queries = 1000
 rounds = 6
 )";
 
-// Of what is written as `timed_file`.
+// The folder of the measurements that `timed_file` asks for.
 fs::path times_folder(const fs::path& timed_file) { return timed_file.parent_path() / "times"; }
 
 // Times configuration queries, as `run` does with the file. Returns the exit status.

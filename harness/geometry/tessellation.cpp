@@ -168,4 +168,23 @@ Shape scaled_shape(Shape shape, double factor) {
   return shape;
 }
 
+ConcaveBody scaled_body(ConcaveBody body, double factor) {
+  const auto scaled_mesh = [&](TriangleMesh mesh) {
+    for (Vec3d& vertex : mesh.vertices) vertex *= factor;
+    return std::make_shared<const TriangleMesh>(std::move(mesh));
+  };
+  if (body.mesh) body.mesh = scaled_mesh(*body.mesh);
+  for (CompoundSurface& surface : body.surfaces) surface.mesh = scaled_mesh(*surface.mesh);
+  for (ConvexPart& part : body.parts) {
+    part.shape = scaled_shape(part.shape, factor);
+    part.pose.translation *= factor;
+    part.rounding *= factor;
+    if (part.poses == nullptr) continue;
+    std::vector<Pose> poses = *part.poses;
+    for (Pose& pose : poses) pose.translation *= factor;
+    part.poses = std::make_shared<const std::vector<Pose>>(std::move(poses));
+  }
+  return body;
+}
+
 }  // namespace touchstone::geometry

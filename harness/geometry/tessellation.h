@@ -1,7 +1,8 @@
-// Primitive shapes as polytopes, and shapes of another size. Used to draw, in scenes and as
+// Primitive shapes as polytopes, and shapes and bodies of another size. Used to draw, in scenes and as
 // collision proxies.
 #pragma once
 
+#include "algorithms/core/mesh/concave_body.h"
 #include "algorithms/core/shape.h"
 
 namespace touchstone::geometry {
@@ -18,5 +19,8 @@ Shape as_polytope(const Shape& shape, int level);
 // The shape with all lengths times the factor (> 0), about its body's origin. A hull's faces are found
 // anew, as its vertices are rounded.
 Shape scaled_shape(Shape shape, double factor);
+
+// The body likewise.
+ConcaveBody scaled_body(ConcaveBody body, double factor);
 
 }  // namespace touchstone::geometry

@@ -20,7 +20,7 @@ Mat3d read_matrix(files::TomlTable& table) {
   if (!base::is_rotation(rotation)) {
     table.fail("rotation", fmt::format("the columns are not orthonormal or not right-handed (off "
                                        "by {:.3g}); expected a rotation matrix, row by row",
-                                       base::orthonormal_error(rotation)));
+                                       orthonormal_error(rotation)));
   }
   return rotation;
 }

@@ -162,26 +162,34 @@ void read_pose_log(const std::filesystem::path& file, Scene& scene) {
   PoseLogReader(file, scene).read();
 }
 
+PoseMatrixWriter::PoseMatrixWriter(const std::filesystem::path& file)
+    : csv_(file, [] {
+        const std::vector<std::string>& all = log_columns();
+        std::vector<std::string> columns = {all[log_frame], all[log_body]};
+        columns.insert(columns.end(), all.begin() + log_first + quaternion_numbers, all.end());
+        return columns;
+      }()) {}
+
+void PoseMatrixWriter::add(std::size_t frame, std::size_t body, const Pose& pose) {
+  csv_.field(frame).field(body);
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) csv_.field(pose.rotation(i, k));
+    csv_.field(pose.translation[i]);
+  }
+  csv_.end_row();
+}
+
 int write_pose_log(const Scene& scene, const std::filesystem::path& file) {
-  const std::vector<std::string>& all = log_columns();
-  std::vector<std::string> columns = {all[log_frame], all[log_body]};
-  columns.insert(columns.end(), all.begin() + log_first + quaternion_numbers, all.end());
-  files::CsvWriter csv(file, columns);
+  PoseMatrixWriter log(file);
   Kinematics kinematics(scene);
   for (int frame = 0; frame < scene.frames; ++frame) {
     if (frame > 0) kinematics.next();
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
       if (!kinematics.is_present(body) || !scene.bodies[body].moving) continue;
-      const Pose& pose = kinematics.poses()[body];
-      csv.field(frame).field(body);
-      for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < 3; ++k) csv.field(pose.rotation(i, k));
-        csv.field(pose.translation[i]);
-      }
-      csv.end_row();
+      log.add(static_cast<std::size_t>(frame), body, kinematics.poses()[body]);
     }
   }
-  csv.close();
+  log.close();
   return scene.frames;
 }
 

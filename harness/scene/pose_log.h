@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -16,6 +17,17 @@ namespace touchstone::scene {
 // the file has get tracks, and count as moving; the scene has as many frames as the file. Throws InputError with
 // file and line.
 void read_pose_log(const std::filesystem::path& file, Scene& scene);
+
+// Writes such a file as matrices, row by row.
+class PoseMatrixWriter {
+ public:
+  explicit PoseMatrixWriter(const std::filesystem::path& file);
+  void add(std::size_t frame, std::size_t body, const Pose& pose);
+  void close() { csv_.close(); }
+
+ private:
+  files::CsvWriter csv_;
+};
 
 // Writes such a file, as matrices, of all frames of the scene and the bodies that may move. Returns the number of frames.
 int write_pose_log(const Scene& scene, const std::filesystem::path& file);

@@ -57,12 +57,16 @@ class Writer {
  public:
   explicit Writer(const std::filesystem::path& file) : file_(file) {}
 
-  void add(const SceneBody& placed) {
-    text_ += fmt::format("  {{{}, moving = false, shape = {}}},\n", place(placed.pose),
-                         table_of(placed.body));
+  // `name`: none if empty.
+  void add(const SceneBody& placed, const std::string& name) {
+    text_ += fmt::format("  {{{}{}, moving = false, shape = {}}},\n",
+                         name.empty() ? "" : fmt::format("name = \"{}\", ", name),
+                         place(placed.pose), table_of(placed.body));
   }
 
-  void write() const { files::write_text(file_, "body = [\n" + text_ + "]\n"); }
+  void write(const std::string& keys) const {
+    files::write_text(file_, keys + "body = [\n" + text_ + "]\n");
+  }
 
  private:
   std::string table_of(const TriangleMesh& mesh) {
@@ -96,10 +100,13 @@ class Writer {
 
 }  // namespace
 
-void write_scene(const std::filesystem::path& file, std::span<const SceneBody> bodies) {
+void write_scene(const std::filesystem::path& file, std::span<const SceneBody> bodies,
+                 std::span<const std::string> names, const std::string& keys) {
   Writer writer(file);
-  for (const SceneBody& body : bodies) writer.add(body);
-  writer.write();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    writer.add(bodies[i], names.empty() ? "" : names[i]);
+  }
+  writer.write(keys);
 }
 
 void write_off(const std::filesystem::path& file, const TriangleMesh& mesh) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "algorithms/core/mesh/sole_shape.h"
+#include "algorithms/core/orthonormal_error.h"
 
 namespace touchstone {
 namespace {
@@ -127,10 +128,6 @@ PartBounds bounds_of(const ConcaveBody& body) {
 
 }  // namespace
 
-double orthonormal_error(const Mat3d& matrix) {
-  return (matrix.transpose() * matrix - Mat3d::Identity()).cwiseAbs().maxCoeff();
-}
-
 void BoundModel::bind(const ConfigurationModel& model, const ConfigurationSettings& settings) {
   model_ = &model;
   const std::size_t count = model.parts.size();
@@ -177,6 +174,10 @@ void BoundModel::bind(const ConfigurationModel& model, const ConfigurationSettin
     concave_->bind(bodies_);
   }
   now_ = 0;
+  placed_links_.assign(model.links, Pose{});
+  still_since_.assign(model.links, 0);
+  known_of_contact_.clear();
+  known_of_distance_.clear();
   for (auto* placed : {&placed_centres_, &placed_axes_, &placed_poses_}) placed->assign(count, 0);
   centres_.assign(count, Vec3d::Zero());
   axes_.assign(count, Mat3d::Identity());
@@ -194,7 +195,13 @@ void BoundModel::place(std::span<const Pose> links) {
   links_ = links;
   ++now_;
   double furthest = 0, error = error_of_parts_;
-  for (const Pose& link : links) {
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Pose& link = links[i];
+    if (link.translation != placed_links_[i].translation ||
+        link.rotation != placed_links_[i].rotation) {
+      placed_links_[i] = link;
+      still_since_[i] = now_;
+    }
     furthest = std::max(furthest, link.translation.cwiseAbs().maxCoeff());
     error = std::max(error, orthonormal_error(link.rotation));
   }
@@ -217,7 +224,7 @@ const Mat3d& BoundModel::axes(std::uint32_t part) {
 
 const Pose& BoundModel::pose(std::uint32_t part) {
   if (placed_poses_[part] < now_) {
-    poses_[part] = placed_within(links_[link_of(part)], model_->parts[part].pose);
+    poses_[part] = placed(model_->parts[part], links_);
     placed_poses_[part] = now_;
   }
   return poses_[part];
@@ -306,8 +313,23 @@ BoundModel::Gap BoundModel::gap(const IndexPair& pair) {
 }
 
 const Outcome& BoundModel::ask(Task task, const IndexPair& pair) {
-  outcome_.answer = Answer::unknown;
-  outcome_.status = Status::unsupported;
+  const std::uint64_t since = std::max(still_since(pair.a), still_since(pair.b));
+  if (since == now_) {
+    solve(task, pair, outcome_);
+    return outcome_;
+  }
+  auto& all = task == Task::intersect ? known_of_contact_ : known_of_distance_;
+  Known& known = all[(std::uint64_t{pair.a} << 32) + pair.b];
+  if (known.since <= since) {
+    solve(task, pair, known.outcome);
+    known.since = now_;
+  }
+  return known.outcome;
+}
+
+void BoundModel::solve(Task task, const IndexPair& pair, Outcome& outcome) {
+  outcome.answer = Answer::unknown;
+  outcome.status = Status::unsupported;
   if (is_convex_[pair.a] != 0 && is_convex_[pair.b] != 0) {
     std::uint32_t first = pair.a, second = pair.b;
     if (shapes_[first].kind > shapes_[second].kind) std::swap(first, second);
@@ -316,13 +338,12 @@ const Outcome& BoundModel::ask(Task task, const IndexPair& pair) {
     const PairBatch batch = {shapes_[first].kind,
                              shapes_[second].kind,
                              {{&first, 1}, {&second, 1}, own_number_, poses_}};
-    narrow_->solve_alone(task, batch, 0, outcome_);
-    return outcome_;
+    narrow_->solve_alone(task, batch, 0, outcome);
+    return;
   }
   touching_.clear();
   concave_->solve(task == Task::intersect ? ConcaveTask::intersect : ConcaveTask::distance,
-                  {pair.a, pose(pair.a)}, {pair.b, pose(pair.b)}, outcome_, touching_);
-  return outcome_;
+                  {pair.a, pose(pair.a)}, {pair.b, pose(pair.b)}, outcome, touching_);
 }
 
 BoundModel::Verdict BoundModel::decide(const IndexPair& pair) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "algorithms/configuration_query.h"
@@ -30,9 +31,7 @@ inline bool is_beyond(double squared, double reach) {
   return squared > reach * reach && squared >= std::numeric_limits<double>::min();
 }
 
-// By how much the columns of a matrix fail to be orthonormal.
-double orthonormal_error(const Mat3d& matrix);
-// By so many times that error and the reach, bounds of parts that are turned by such matrices are off, or less.
+// By so many times the orthonormal error and the reach, bounds of parts that are turned by such matrices are off, or less.
 inline constexpr double slack_of_error = 64;
 
 class BoundModel {
@@ -97,7 +96,13 @@ class BoundModel {
     const PartBounds& plane = bounds_[ground];
     return plane.normal.dot(centre(part)) - plane.offset - bounds_[part].radius;
   }
+  // An outcome is kept, and holds until a part of the pair moves.
   const Outcome& ask(Task task, const IndexPair& pair);
+  void solve(Task task, const IndexPair& pair, Outcome& outcome);
+  // The number of the configuration since which a part is where it is.
+  std::uint64_t still_since(std::uint32_t part) const {
+    return link_of(part) == ModelPart::world ? 0 : still_since_[link_of(part)];
+  }
 
   const ConfigurationModel* model_ = nullptr;
   std::vector<IndexPair> pairs_;
@@ -110,6 +115,15 @@ class BoundModel {
   std::unique_ptr<ConcavePhase> concave_;  // null if all parts are convex
   double error_of_parts_ = 0;
   double reach_ = 0;  // no part reaches further from its link, or the origin (metres)
+
+  struct Known {
+    std::uint64_t since = 0;  // the number of the configuration that was asked
+    Outcome outcome;
+  };
+  std::vector<Pose> placed_links_;          // of the configuration before
+  std::vector<std::uint64_t> still_since_;  // by link
+  // Of pairs that stood still when they were asked, by tasks.
+  std::unordered_map<std::uint64_t, Known> known_of_contact_, known_of_distance_;
 
   // In this configuration, those whose number is `now_`; the world's have the greatest number.
   std::span<const Pose> links_;

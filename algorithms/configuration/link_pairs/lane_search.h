@@ -12,6 +12,7 @@
 #include "algorithms/configuration/link_pairs/ball_lanes.h"
 #include "algorithms/configuration/link_pairs/link_groups.h"
 #include "algorithms/configuration/link_pairs/pair_search.h"
+#include "algorithms/core/orthonormal_error.h"
 
 namespace touchstone {
 
@@ -130,22 +131,24 @@ class PoseLanes final : public PairSearch {
     roots_ = static_cast<std::uint32_t>(rows_.size());
     for (std::uint32_t row = 0; row < roots_; ++row) {
       const auto first = static_cast<std::uint32_t>(rows_.size());
+      std::uint32_t last = 0;
       if (row < world_rows) {
         const auto [link, other] = pairs_[row];
         for (const std::uint32_t part : groups_.links()[link].parts) {
           if (groups_.asks(part, other)) add_parts(part, other, true);
         }
+        last = static_cast<std::uint32_t>(rows_.size());
       } else {
-        list_parts(groups_.pairs()[row - world_rows]);
+        last = list_parts(groups_.pairs()[row - world_rows]);
       }
-      // Those of a pair of links have rows below them, which come behind.
       rows_[row].first = first;
-      rows_[row].last = row < world_rows ? static_cast<std::uint32_t>(rows_.size()) : heads_;
+      rows_[row].last = last;
     }
   }
 
-  // Each part of the first link with the ball of the second, and below it with the parts of that.
-  void list_parts(const LinkPairs& links) {
+  // Each part of the first link with the ball of the second, and below it with the parts of that. Returns the end of the
+  // first of these rows; those below them come behind.
+  std::uint32_t list_parts(const LinkPairs& links) {
     std::vector<std::uint32_t> parts;
     for (const IndexPair& pair : links.pairs) parts.push_back(of_link(pair, links.a).first);
     std::ranges::sort(parts);
@@ -155,7 +158,7 @@ class PoseLanes final : public PairSearch {
       add_row(ball_of_[part], first_ball_[links.b], false,
               model_.bounds(part).radius + groups_.links()[links.b].radius, false, {});
     }
-    heads_ = static_cast<std::uint32_t>(rows_.size());
+    const auto last = static_cast<std::uint32_t>(rows_.size());
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
       rows_[first + i].first = static_cast<std::uint32_t>(rows_.size());
       for (const IndexPair& pair : links.pairs) {
@@ -164,6 +167,7 @@ class PoseLanes final : public PairSearch {
       }
       rows_[first + i].last = static_cast<std::uint32_t>(rows_.size());
     }
+    return last;
   }
 
   // The part of this link, and the other part.
@@ -226,11 +230,7 @@ class PoseLanes final : public PairSearch {
       }
       return;
     }
-    for (ConfigurationAnswer& answer : answers) {
-      answer = ConfigurationAnswer{};
-      answer.answer = Answer::separated;
-      answer.status = Status::ok;
-    }
+    std::ranges::fill(answers, free_so_far());
     for (auto& list : near_) list.clear();
     sure_.clear();
     const auto every = static_cast<std::uint32_t>((std::uint64_t{1} << answers.size()) - 1);
@@ -321,12 +321,7 @@ class PoseLanes final : public PairSearch {
 
   // Of the lane at hand the pairs that its balls left.
   IndexPair search(std::span<const Pose>) override {
-    const std::span<const IndexPair> pairs =
-        uses_lanes_ ? std::span<const IndexPair>(asked_) : model_.pairs();
-    for (const IndexPair& pair : pairs) {
-      if (is_some(settle(pair))) return pair;
-    }
-    return nothing;
+    return settle(uses_lanes_ ? std::span<const IndexPair>(asked_) : model_.pairs());
   }
 
   LinkGroups groups_;
@@ -341,7 +336,7 @@ class PoseLanes final : public PairSearch {
   std::vector<LaneRow> rows_;
   std::vector<IndexPair> pairs_;        // of rows that have none below them: the parts
   std::vector<IndexPair> link_of_row_;  // of the first rows: the links that they are of
-  std::uint32_t roots_ = 0, heads_ = 0;
+  std::uint32_t roots_ = 0;             // the number of the first rows
 
   // Of the block at hand.
   std::uint64_t block_ = 0;

@@ -10,10 +10,11 @@
 //          4. Each pair that is left: the two balls, the ball of each with the box of the other, the two boxes.
 //             Balls with balls and with boxes are decided so, unless rounding might matter.
 //          5. Pairs that are left open are asked, those first whose parts were most often in contact: convex
-//             ones by the narrow phase, others by the concave phase. The first contact ends it.
+//             ones by the narrow phase, others by the concave phase. The first contact ends it. What a pair answered
+//             holds until one of its parts moves: a base that stands on a table is asked once.
 //          6. motion: step by step, until one is in contact.
-//          7. distance, by `fixed-pairs`: lower bounds by balls and boxes; pairs are measured from the least on, until it is beyond
-//             the least distance.
+//          7. distance, by `fixed-pairs`: lower bounds by balls and boxes; pairs are measured in their order, until
+//             the next bound is beyond the least distance.
 // Departs: VAMP's lanes are configurations spread over a motion; here they follow each other, since the first contact is
 //          asked.
 // Fails:   unknown where the narrow phase or the concave phase is. Which pair is named depends on what was asked
@@ -32,12 +33,7 @@ class FixedPairs final : public PairSearch {
 
  private:
   void prepare(const ConfigurationModel&) override {}
-  IndexPair search(std::span<const Pose>) override {
-    for (const IndexPair& pair : model_.pairs()) {
-      if (is_some(settle(pair))) return pair;
-    }
-    return nothing;
-  }
+  IndexPair search(std::span<const Pose>) override { return settle(model_.pairs()); }
 };
 
 template <class Search>

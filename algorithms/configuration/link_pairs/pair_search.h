@@ -25,39 +25,30 @@ class PairSearch : public ConfigurationQuery {
 
   void solve(ConfigurationTask task, const Configurations& configurations,
              std::span<ConfigurationAnswer> answers) override {
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-      answers[i] = ConfigurationAnswer{};
-      answers[i].answer = Answer::separated;
-      answers[i].status = Status::ok;
-      if (task == ConfigurationTask::distance) {
-        measure(configurations.of(i), answers[i]);
-        continue;
-      }
-      for (std::uint32_t step = 0; step < configurations.steps; ++step) {
-        answers[i] = find(configurations.of(i, step));
-        if (answers[i].answer == Answer::separated) continue;
-        if (task == ConfigurationTask::motion) answers[i].step = step;
-        break;
-      }
-    }
+    answer_steps(task, configurations, answers, [&](std::span<const Pose> links) {
+      return task == ConfigurationTask::distance ? measure(links) : find(links);
+    });
   }
 
  protected:
   // For what a model needs beside BoundModel.
   virtual void prepare(const ConfigurationModel& model) = 0;
-  // Looks at pairs that may be in contact: settles those that bounds decide, and keeps others in `open_`. Returns a pair
-  // that shares a point for certain, or none.
+  // Settles the pairs that may be in contact. Returns one that shares a point for certain, or none.
   virtual IndexPair search(std::span<const Pose> links) = 0;
 
   static constexpr IndexPair nothing = {ConfigurationAnswer::none, ConfigurationAnswer::none};
+  static ConfigurationAnswer free_so_far() {
+    ConfigurationAnswer answer;
+    answer.answer = Answer::separated;
+    answer.status = Status::ok;
+    return answer;
+  }
   static bool is_some(const IndexPair& pair) { return pair.a != ConfigurationAnswer::none; }
 
   // What one configuration is. The pair that was in contact last is asked first, and then those whose parts were most
   // often.
   ConfigurationAnswer find(std::span<const Pose> links) {
-    ConfigurationAnswer found;
-    found.answer = Answer::separated;
-    found.status = Status::ok;
+    ConfigurationAnswer found = free_so_far();
     model_.place(links);
     const IndexPair before = std::exchange(last_, nothing);
     bool was_apart = false;
@@ -85,11 +76,13 @@ class PairSearch : public ConfigurationQuery {
     return found;
   }
 
-  // Of what is left open by bounds.
-  IndexPair settle(const IndexPair& pair) {
-    const BoundModel::Bound bound = model_.bound(pair);
-    if (bound == BoundModel::Bound::touch) return pair;
-    if (bound == BoundModel::Bound::open) open_.push_back(pair);
+  // Settles the pairs that bounds decide, and keeps others. Returns the first that shares a point for certain, or none.
+  IndexPair settle(std::span<const IndexPair> pairs) {
+    for (const IndexPair& pair : pairs) {
+      const BoundModel::Bound bound = model_.bound(pair);
+      if (bound == BoundModel::Bound::touch) return pair;
+      if (bound == BoundModel::Bound::open) open_.push_back(pair);
+    }
     return nothing;
   }
 
@@ -117,7 +110,8 @@ class PairSearch : public ConfigurationQuery {
   }
 
   // Measures pairs in the order of their lower bounds, until these are beyond the least distance.
-  void measure(std::span<const Pose> links, ConfigurationAnswer& answer) {
+  ConfigurationAnswer measure(std::span<const Pose> links) {
+    ConfigurationAnswer answer = free_so_far();
     model_.place(links);
     answer.distance = std::numeric_limits<double>::infinity();
     gaps_.clear();
@@ -140,7 +134,7 @@ class PairSearch : public ConfigurationQuery {
         answer.answer = Answer::overlapping;
         answer.status = Status::ok;
         take(pair, 0, answer);
-        return;
+        return answer;
       }
       if (outcome.answer != Answer::separated || outcome.status != Status::ok) {
         answer.answer = Answer::unknown;
@@ -150,6 +144,7 @@ class PairSearch : public ConfigurationQuery {
       }
     }
     if (answer.answer == Answer::unknown) answer.distance = Outcome::none;
+    return answer;
   }
 
   static void take(const IndexPair& pair, double distance, ConfigurationAnswer& answer) {

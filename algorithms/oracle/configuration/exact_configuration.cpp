@@ -31,21 +31,11 @@ class ExactConfigurations final : public ConfigurationQuery {
 
   void solve(ConfigurationTask task, const Configurations& configurations,
              std::span<ConfigurationAnswer> answers) override {
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-      for (std::uint32_t step = 0; step < configurations.steps; ++step) {
-        answers[i] = answer(task, configurations.of(i, step));
-        if (answers[i].answer == Answer::separated) continue;
-        if (task == ConfigurationTask::motion) answers[i].step = step;
-        break;
-      }
-    }
+    answer_steps(task, configurations, answers,
+                 [&](std::span<const Pose> links) { return answer(task, links); });
   }
 
  private:
-  Pose placed(const ModelPart& part, std::span<const Pose> links) const {
-    return part.link == ModelPart::world ? part.pose : placed_within(links[part.link], part.pose);
-  }
-
   ConfigurationAnswer answer(ConfigurationTask task, std::span<const Pose> links) {
     ConfigurationAnswer found;
     found.answer = Answer::separated;

@@ -22,10 +22,10 @@
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "algorithms/peers/fcl_mesh.h"
 #include "algorithms/peers/fcl_shapes.h"
 
 namespace touchstone {
@@ -40,7 +40,7 @@ class FclMeshes final : public ConcavePhase {
     for (const ConcaveBody& body : bodies) {
       std::vector<Part>& parts = bodies_.emplace_back();
       if (body.mesh && !body.mesh->triangles.empty()) {
-        parts.push_back({model_of(*body.mesh), {}, true});
+        parts.push_back({fcl_shapes::make_fcl_mesh<BV>(*body.mesh), {}, true});
       }
       for (const ConvexPart& part : body.parts) {
         parts.push_back({fcl_shapes::make_fcl_shape<double>(part.shape), part.pose, false});
@@ -71,20 +71,6 @@ class FclMeshes final : public ConcavePhase {
     Pose pose;
     bool is_mesh;
   };
-
-  static std::shared_ptr<fcl::CollisionGeometry<double>> model_of(const TriangleMesh& mesh) {
-    const auto model = std::make_shared<fcl::BVHModel<BV>>();
-    std::vector<Vec3d> vertices;
-    for (const Vec3d& vertex : mesh.vertices) vertices.push_back(vertex);
-    std::vector<fcl::Triangle> triangles;
-    for (const auto& corners : mesh.triangles) {
-      triangles.emplace_back(corners[0], corners[1], corners[2]);
-    }
-    model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
-    model->addSubModel(vertices, triangles);
-    model->endModel();
-    return model;
-  }
 
   static fcl::Transform3<double> place(const Pose& body, const Part& part) {
     Pose placed = body;

@@ -63,14 +63,8 @@ class BulletConfigurations final : public ConfigurationQuery {
 
   void solve(ConfigurationTask task, const Configurations& configurations,
              std::span<ConfigurationAnswer> answers) override {
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-      for (std::uint32_t step = 0; step < configurations.steps; ++step) {
-        answers[i] = find(configurations.of(i, step));
-        if (answers[i].answer == Answer::separated) continue;
-        if (task == ConfigurationTask::motion) answers[i].step = step;
-        break;
-      }
-    }
+    answer_steps(task, configurations, answers,
+                 [&](std::span<const Pose> links) { return find(links); });
   }
 
  private:
@@ -156,7 +150,7 @@ class BulletConfigurations final : public ConfigurationQuery {
       const ModelPart& given = model_->parts[i];
       if (given.link == ModelPart::world || objects_[i] == nullptr) continue;
       PartObject& part = *objects_[i];
-      set(part, placed_within(links[given.link], given.pose));
+      set(part, placed(given, links));
       btVector3 low, high;
       part.object.getCollisionShape()->getAabb(part.object.getWorldTransform(), low, high);
       broad_phase_->setAabb(part.object.getBroadphaseHandle(), low, high, &dispatcher_);

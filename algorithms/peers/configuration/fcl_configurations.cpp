@@ -4,7 +4,8 @@
 //          BVHModel<OBBRSS> and shapes, as MoveIt asks them: without contact points, and a callback that leaves out
 //          pairs that may touch.
 // Departs: the robot's objects and its tree are kept and updated, where MoveIt makes them anew for each query. Obstacles
-//          are asked first, one part of the robot after the other, and then the robot itself, as MoveIt does.
+//          are asked first, one part of the robot after the other, and then the robot itself, as MoveIt does. Objects
+//          are registered one by one: registerObjects of several, one of them a half-space, is a segmentation fault.
 // Fails:   a mesh is a surface. Pairs with a convex shape are those of FCL's narrow phase (fcl-libccd), with its
 //          tolerance of 1e-6. A tree's box around a turned part is that of a ball.
 // Cost:    548 bytes a triangle; allocates in each pair that is asked.
@@ -21,10 +22,10 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "algorithms/peers/fcl_mesh.h"
 #include "algorithms/peers/fcl_shapes.h"
 
 namespace touchstone {
@@ -35,16 +36,7 @@ using Geometry = std::shared_ptr<fcl::CollisionGeometry<double>>;
 
 Geometry geometry_of(const ConcaveBody& body) {
   if (!body.mesh) return fcl_shapes::make_fcl_shape<double>(*sole_shape(body));
-  const auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSS<double>>>();
-  std::vector<fcl::Triangle> triangles;
-  for (const auto& corners : body.mesh->triangles) {
-    triangles.emplace_back(corners[0], corners[1], corners[2]);
-  }
-  model->beginModel(static_cast<int>(triangles.size()),
-                    static_cast<int>(body.mesh->vertices.size()));
-  model->addSubModel(body.mesh->vertices, triangles);
-  model->endModel();
-  return model;
+  return fcl_shapes::make_fcl_mesh<fcl::OBBRSS<double>>(*body.mesh);
 }
 
 class FclConfigurations final : public ConfigurationQuery {
@@ -64,14 +56,11 @@ class FclConfigurations final : public ConfigurationQuery {
     for (const auto& [a, b] : model.pairs) {
       asked_[place(a, b)] = asked_[place(b, a)] = 1;
     }
-    std::vector<Object*> of_robot, of_world;
+    of_robot_.clear();
     std::vector<std::pair<const void*, Geometry>> made;  // a mesh may be that of several parts
     for (std::uint32_t i = 0; i < model.parts.size(); ++i) {
       const ModelPart& part = model.parts[i];
-      if (part.body.part_count() == 0) {
-        objects_.push_back(nullptr);
-        continue;
-      }
+      if (part.body.part_count() == 0) continue;
       const void* const mesh = part.body.mesh.get();
       const auto known = std::ranges::find_if(
           made, [&](const auto& one) { return mesh != nullptr && one.first == mesh; });
@@ -80,11 +69,14 @@ class FclConfigurations final : public ConfigurationQuery {
       auto object = std::make_unique<Object>(geometry);
       object->setUserData(reinterpret_cast<void*>(std::uintptr_t{i}));
       set(*object, part.pose);
-      (part.link == ModelPart::world ? of_world : of_robot).push_back(object.get());
+      if (part.link == ModelPart::world) {
+        world_->registerObject(object.get());
+      } else {
+        robot_->registerObject(object.get());
+        of_robot_.push_back(object.get());
+      }
       objects_.push_back(std::move(object));
     }
-    robot_->registerObjects(of_robot);
-    world_->registerObjects(of_world);
     robot_->setup();
     world_->setup();
   }
@@ -96,30 +88,9 @@ class FclConfigurations final : public ConfigurationQuery {
       std::ranges::fill(answers, ConfigurationAnswer{});
       return;
     }
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-      for (std::uint32_t step = 0; step < configurations.steps; ++step) {
-        Asked asked{this, {}};
-        ConfigurationAnswer& found = asked.found;
-        found.answer = Answer::separated;
-        found.status = Status::not_reported;
-        try {
-          put(configurations.of(i, step));
-          if (task == ConfigurationTask::distance) {
-            found.distance = std::numeric_limits<double>::infinity();
-            measure(asked);
-          } else {
-            collide(asked);
-          }
-        } catch (...) {
-          found.answer = Answer::unknown;
-          found.status = Status::degenerate;
-        }
-        answers[i] = found;
-        if (found.answer == Answer::separated) continue;
-        if (task == ConfigurationTask::motion) answers[i].step = step;
-        break;
-      }
-    }
+    answer_steps(task, configurations, answers, [&](std::span<const Pose> links) {
+      return task == ConfigurationTask::distance ? measure(links) : collide(links);
+    });
   }
 
  private:
@@ -134,10 +105,8 @@ class FclConfigurations final : public ConfigurationQuery {
   }
 
   void put(std::span<const Pose> links) {
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-      const ModelPart& part = model_->parts[i];
-      if (objects_[i] == nullptr || part.link == ModelPart::world) continue;
-      set(*objects_[i], placed_within(links[part.link], part.pose));
+    for (Object* const object : of_robot_) {
+      set(*object, placed(model_->parts[number_of(object)], links));
     }
     robot_->update();
   }
@@ -184,30 +153,46 @@ class FclConfigurations final : public ConfigurationQuery {
     return distance <= 0;
   }
 
-  void collide(Asked& asked) const {
-    for (const auto& object : objects_) {
-      if (object == nullptr || model_->parts[number_of(object.get())].link == ModelPart::world) {
-        continue;
+  // Moves the robot and asks: `of_object` of each part of it and the world, then `of_robot`.
+  template <class OfObject, class OfRobot>
+  ConfigurationAnswer ask(std::span<const Pose> links, double distance, const OfObject& of_object,
+                          const OfRobot& of_robot) {
+    Asked asked{this, {}};
+    ConfigurationAnswer& found = asked.found;
+    found.answer = Answer::separated;
+    found.status = Status::not_reported;
+    found.distance = distance;
+    try {
+      put(links);
+      for (Object* const object : of_robot_) {
+        of_object(object, &asked);
+        if (found.answer == Answer::overlapping) return found;
       }
-      world_->collide(object.get(), &asked, collide_pair);
-      if (asked.found.answer == Answer::overlapping) return;
+      of_robot(&asked);
+    } catch (...) {
+      found.answer = Answer::unknown;
+      found.status = Status::degenerate;
     }
-    robot_->collide(&asked, collide_pair);
+    return found;
   }
 
-  void measure(Asked& asked) const {
-    for (const auto& object : objects_) {
-      if (object == nullptr || model_->parts[number_of(object.get())].link == ModelPart::world) {
-        continue;
-      }
-      world_->distance(object.get(), &asked, measure_pair);
-      if (asked.found.answer == Answer::overlapping) return;
-    }
-    robot_->distance(&asked, measure_pair);
+  ConfigurationAnswer collide(std::span<const Pose> links) {
+    return ask(
+        links, Outcome::none,
+        [&](Object* object, Asked* asked) { world_->collide(object, asked, collide_pair); },
+        [&](Asked* asked) { robot_->collide(asked, collide_pair); });
+  }
+
+  ConfigurationAnswer measure(std::span<const Pose> links) {
+    return ask(
+        links, std::numeric_limits<double>::infinity(),
+        [&](Object* object, Asked* asked) { world_->distance(object, asked, measure_pair); },
+        [&](Asked* asked) { robot_->distance(asked, measure_pair); });
   }
 
   const ConfigurationModel* model_ = nullptr;
-  std::vector<std::unique_ptr<Object>> objects_;  // one a part; null for one without points
+  std::vector<std::unique_ptr<Object>> objects_;  // of the parts that have points
+  std::vector<Object*> of_robot_;                 // those of parts of links
   bool has_halfspace_ = false;
   std::vector<char> asked_;  // of two parts, in either order
   std::unique_ptr<fcl::DynamicAABBTreeCollisionManager<double>> robot_, world_;
@@ -231,7 +216,7 @@ std::vector<ConfigurationEntry> peers_fcl_configurations() {
       {.info = {.name = "fcl-managers",
                 .citation = "FCL 0.7: DynamicAABBTreeCollisionManager, BVHModel<OBBRSS>",
                 .origin = Origin::peer,
-                .known_defect = "a tolerance of 1e-6; the depth and gaps are those of fcl-libccd"},
+                .known_defect = "a tolerance of 1e-6; gaps are those of fcl-libccd"},
        .tasks = {ConfigurationTask::free, ConfigurationTask::distance, ConfigurationTask::motion},
        .supports =
            [](const ConfigurationModel& model) {

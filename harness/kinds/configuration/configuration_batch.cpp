@@ -8,13 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "harness/files/csv.h"
-#include "harness/files/packed_files.h"
-#include "harness/files/text_file.h"
 #include "harness/geometry/tessellation.h"
 #include "harness/kinds/configuration/configuration_grade.h"
 #include "harness/kinds/configuration/configuration_kind.h"
 #include "harness/kinds/mesh_cases.h"
+#include "harness/scene/pose_log.h"
 #include "harness/scene/scene.h"
 
 namespace touchstone::kinds {
@@ -33,14 +31,7 @@ std::uint32_t asked_steps(ConfigurationTask task) {
 ConfigurationModel scaled_robot(ConfigurationModel robot, double scale) {
   for (ModelPart& part : robot.parts) {
     part.pose.translation *= scale;
-    if (part.body.mesh) {
-      TriangleMesh mesh = *part.body.mesh;
-      for (Vec3d& vertex : mesh.vertices) vertex *= scale;
-      part.body.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    }
-    for (ConvexPart& convex : part.body.parts) {
-      convex.shape = geometry::scaled_shape(convex.shape, scale);
-    }
+    part.body = geometry::scaled_body(std::move(part.body), scale);
   }
   return robot;
 }
@@ -133,7 +124,9 @@ class ConfigurationBatch final : public Batch {
     bool names_pair = true;
     if (answer.pair.a != ConfigurationAnswer::none || answer.answer != Answer::separated) {
       // The distance is that of this form.
-      names_pair = ConfigurationTruth(robot, PairAnswers::exact).names_pair(answer, poses);
+      if (pairs_.of != &robot)
+        pairs_ = {&robot, std::make_unique<ConfigurationTruth>(robot, PairAnswers::exact)};
+      names_pair = pairs_.truth->names_pair(answer, poses);
     }
     return grade_configuration(task, answer, truth(i, task), names_pair,
                                configuration_reach(robot, poses));
@@ -143,52 +136,41 @@ class ConfigurationBatch final : public Batch {
   static void write_case(const ConfigurationModel& robot, std::span<const Pose> poses,
                          const std::filesystem::path& stem) {
     const std::filesystem::path scene = stem.string() + ".toml", log = stem.string() + ".csv";
-    const auto placed = [&](const ModelPart& part, std::size_t step) {
-      return part.link == ModelPart::world
-                 ? part.pose
-                 : placed_within(poses[step * robot.links + part.link], part.pose);
-    };
     std::vector<SceneBody> bodies;
-    for (const ModelPart& part : robot.parts) bodies.push_back({part.body, placed(part, 0)});
-    scene::write_scene(scene, bodies);
-    std::string text =
-        fmt::format("poses = \"{}\"\nfixed_pairs = false\nignore = [", log.filename().string());
+    std::vector<std::string> names;
+    for (const ModelPart& part : robot.parts) {
+      bodies.push_back({part.body, placed(part, poses.first(robot.links))});
+      names.push_back(fmt::format("part {}", names.size()));
+    }
+    std::string ignored;
     for (std::uint32_t a = 0; a < robot.parts.size(); ++a) {
       for (std::uint32_t b = a + 1; b < robot.parts.size(); ++b) {
         if (robot.parts[a].link == ModelPart::world) continue;
         if (std::ranges::binary_search(robot.pairs, IndexPair{a, b})) continue;
-        text += fmt::format("[\"part {}\", \"part {}\"], ", a, b);
+        ignored += fmt::format("[\"{}\", \"{}\"], ", names[a], names[b]);
       }
     }
-    text += "]\n";
-    std::size_t part = 0;
-    files::LineReader lines(scene);
-    while (const auto line = lines.next()) {
-      std::string body(*line);
-      if (body.starts_with("  {")) body.insert(3, fmt::format("name = \"part {}\", ", part++));
-      text += body;
-    }
-    files::write_text(scene, text);
-    std::vector<std::string> columns = {"frame", "body"};
-    for (int i = 0; i < 12; ++i) columns.push_back(fmt::format("m{}{}", i / 4, i % 4));
-    files::CsvWriter csv(log, columns);
+    scene::write_scene(scene, bodies, names,
+                       fmt::format("poses = \"{}\"\nfixed_pairs = false\nignore = [{}]\n",
+                                   log.filename().string(), ignored));
+    scene::PoseMatrixWriter written(log);
     for (std::size_t step = 0; step < poses.size() / robot.links; ++step) {
+      const auto links = poses.subspan(step * robot.links, robot.links);
       for (std::size_t i = 0; i < robot.parts.size(); ++i) {
         if (robot.parts[i].link == ModelPart::world) continue;
-        const Pose pose = placed(robot.parts[i], step);
-        csv.field(step).field(i);
-        for (int row = 0; row < 3; ++row) {
-          for (int k = 0; k < 3; ++k) csv.field(pose.rotation(row, k));
-          csv.field(pose.translation[row]);
-        }
-        csv.end_row();
+        written.add(step, i, placed(robot.parts[i], links));
       }
     }
-    csv.close();
+    written.close();
   }
 
   TargetCases<ConfigurationModel, DrawnMotion, ConfigurationAnswer> cases_;
   std::array<std::vector<ConfigurationAnswer>, configuration_tasks.size()> truths_;
+  // Of pairs of the robot that was asked last.
+  struct {
+    const ConfigurationModel* of = nullptr;
+    std::unique_ptr<ConfigurationTruth> truth;
+  } pairs_;
 };
 
 }  // namespace
@@ -201,8 +183,8 @@ const Kind& configuration_kind() {
        .legend = "A contact is a pair of parts that is asked and shares a point; of a motion, also "
                  "the first step in contact counts: a later one is missed, an earlier one false. "
                  "*Inexact*: a named pair that is not in contact or so near, or a distance that is "
-                 "off by more "
-                 "than 1e-11 of the reach, which is the greatest distance of a link or an obstacle "
+                 "off by more than 1e-11 of the reach, which is the greatest distance of a link or "
+                 "an obstacle "
                  "from the origin, and at least 1 m.",
        .tasks = configuration_tasks,
        .draw_number = 7},

@@ -55,14 +55,10 @@ bool ConfigurationTruth::touches(const IndexPair& pair, std::span<const Pose> li
 
 Outcome ConfigurationTruth::outcome_of(ConcaveTask task, const IndexPair& pair,
                                        std::span<const Pose> links) {
-  const auto placed = [&](std::uint32_t i) -> PlacedConcave {
-    const ModelPart& part = model_.parts[i];
-    return {i,
-            part.link == ModelPart::world ? part.pose : placed_within(links[part.link], part.pose)};
-  };
+  const auto at = [&](std::uint32_t i) { return PlacedConcave{i, placed(model_.parts[i], links)}; };
   Outcome outcome;
   std::vector<IndexPair> touching;
-  phase_->solve(task, placed(pair.a), placed(pair.b), outcome, touching);
+  phase_->solve(task, at(pair.a), at(pair.b), outcome, touching);
   return outcome;
 }
 

@@ -51,15 +51,7 @@ struct RayTruth {
 SceneBodies scaled_bodies(SceneBodies bodies, double scale) {
   for (SceneBody& placed : bodies) {
     placed.pose.translation *= scale;
-    if (placed.body.mesh) {
-      TriangleMesh mesh = *placed.body.mesh;
-      for (Vec3d& vertex : mesh.vertices) vertex *= scale;
-      placed.body.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    }
-    for (ConvexPart& part : placed.body.parts) {
-      part.shape = geometry::scaled_shape(part.shape, scale);
-      part.pose.translation *= scale;
-    }
+    placed.body = geometry::scaled_body(std::move(placed.body), scale);
   }
   return bodies;
 }

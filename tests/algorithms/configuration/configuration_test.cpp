@@ -377,6 +377,56 @@ TEST(Configurations, AgreeWithEveryPairByItself) {
 }
 
 // A half-space below the robot, which reaches it now and then.
+// A base that stands on a table, or beside it, and a hand, each at one of three places: often where they were before,
+// or before that. One query answers for all configurations, and as a new one for each.
+TEST(Configurations, WhatIsKnownOfPairsHoldsUntilTheyMove) {
+  ConfigurationModel model;
+  model.links = 2;
+  model.parts = {{box({1, 1, 0.5}), 0, {}},
+                 {box({0.2, 0.3, 0.4}), 1, {}},
+                 {box({2, 2, 0.25}), ModelPart::world, at(0, 0, -0.25)}};
+  const std::vector<Pose> bases = {at(0, 0, 0.5), at(0, 0, std::nextafter(0.5, 1)), at(9, 0, 0.2)},
+                          hands = {at(0, 0, 1.4), at(0, 0, 1.5), at(1.2, 0, 0.4)};
+  for (const auto& pairs :
+       {std::vector<IndexPair>{{0, 1}, {0, 2}, {1, 2}}, std::vector<IndexPair>{{0, 1}, {1, 2}}}) {
+    model.pairs = pairs;
+    Random random(7);
+    std::vector<Pose> poses;
+    const std::size_t count = 400;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const auto* of : {&bases, &hands}) {
+        const std::size_t before = poses.size() - 2;
+        const bool stays = i > 0 && random.below(2) == 0;
+        const Pose place = stays ? poses[before] : (*of)[static_cast<std::size_t>(random.below(3))];
+        poses.push_back(place);
+      }
+    }
+    for (const ConfigurationTask task : {ConfigurationTask::free, ConfigurationTask::distance}) {
+      std::vector<ConfigurationAnswer> right(count);
+      const auto every_pair = query_of(exact());
+      every_pair->bind(model);
+      every_pair->solve(task, {poses, 2, 1}, right);
+      int contacts = 0;
+      for (const auto& answer : right) contacts += answer.answer == Answer::overlapping ? 1 : 0;
+      EXPECT_GT(contacts, 20);
+      EXPECT_LT(contacts, 380);
+      for (const ConfigurationEntry* entry : asked(task)) {
+        if (entry->approximate) continue;
+        std::vector<ConfigurationAnswer> answers(count);
+        const auto query = query_of(*entry);
+        query->bind(model);
+        query->solve(task, {poses, 2, 1}, answers);
+        for (std::size_t i = 0; i < count; ++i) {
+          ASSERT_EQ(answers[i].answer, right[i].answer) << entry->info.name << " " << i;
+          if (task == ConfigurationTask::distance && right[i].answer == Answer::separated) {
+            ASSERT_NEAR(answers[i].distance, right[i].distance, 1e-12) << i;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Configurations, AGroundIsMetByWhatReachesIt) {
   Random random(2);
   int contacts = 0, frees = 0;

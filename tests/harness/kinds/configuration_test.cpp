@@ -1,10 +1,16 @@
 // Tests the kind of configurations: what is right, models of scenes, and drawn robots.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <string>
 
 #include "harness/kinds/configuration/configuration_grade.h"
 #include "harness/kinds/configuration/configuration_kind.h"
+#include "harness/kinds/grading.h"
+#include "harness/kinds/kind.h"
 #include "tests/algorithms/one_in.h"
 #include "tests/harness/input_fault.h"
 #include "tests/harness/temporary_folder.h"
@@ -124,6 +130,45 @@ TEST(DrawnRobots, TouchOftenAndEndNearContactWhereTheyAreToldTo) {
       EXPECT_GT(near, 0) << families[number].name;
     }
   }
+}
+
+// Rounded: the file has where the parts are, not their places in their links.
+TEST(DrawnRobots, AreAskedAgainFromTheFilesOfACase) {
+  const kinds::Kind& kind = kinds::configuration_kind();
+  const auto contestants = kind.contestants({"world-tree"}, std::array{Precision::float64});
+  const auto motion = static_cast<std::uint8_t>(ConfigurationTask::motion);
+  const auto contestant = std::ranges::find(contestants, motion, &kinds::Contestant::task);
+  ASSERT_NE(contestant, contestants.end());
+  int contacts = 0, frees = 0;
+  for (const kinds::Family& family : kind.families()) {
+    if (family.name.ends_with("-near")) continue;
+    const auto batch = kind.draw(family, {.seed = 3, .first = 0, .count = 6});
+    for (std::size_t place = 0; place < 6; ++place) {
+      SCOPED_TRACE(std::string(family.name) + " " + std::to_string(place));
+      families::RandomDraws of_robot(base::mix(3) + family.number, ~0ULL);
+      const ConfigurationModel robot = kinds::drawn_robot(family.number, of_robot);
+      auto draws = kinds::draws_of(kind, family.number, 3, place);
+      const kinds::DrawnMotion drawn = kinds::drawn_motion(family.number, robot, draws);
+      const TemporaryFolder folder;
+      const std::string command = batch->write(*contestant, place, folder.path() / "case");
+      EXPECT_THAT(command, testing::HasSubstr("case.toml"));
+      const auto file = folder.path() / "case.toml";
+      const kinds::SceneConfigurations again =
+          kinds::scene_configurations(scene::load_scene(file), file.string());
+      EXPECT_EQ(again.model.parts.size(), robot.parts.size());
+      EXPECT_EQ(again.model.pairs, robot.pairs);
+      kinds::ConfigurationTruth before(robot, kinds::PairAnswers::fast),
+          after(again.model, kinds::PairAnswers::fast);
+      constexpr auto steps = kinds::DrawnMotion::steps;
+      const auto is = before.answer(ConfigurationTask::motion, drawn.poses, steps),
+                 was = after.answer(ConfigurationTask::motion, again.poses, steps);
+      EXPECT_EQ(is.answer, was.answer);
+      EXPECT_EQ(is.step, was.step);
+      ++(is.answer == Answer::separated ? frees : contacts);
+    }
+  }
+  EXPECT_GT(contacts, 0);
+  EXPECT_GT(frees, 0);
 }
 
 }  // namespace
