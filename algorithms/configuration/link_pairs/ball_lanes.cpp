@@ -1,6 +1,8 @@
 // Part of link-pairs: the choice of the instruction level.
 #include "algorithms/configuration/link_pairs/ball_lanes.h"
 
+#include <algorithm>
+
 #include "algorithms/core/isa.h"
 #include "algorithms/kernels/simd/vector.h"
 
@@ -11,6 +13,15 @@ namespace {
 #include "algorithms/kernels/simd/foreach_target.inl"
 
 }  // namespace
+
+PoseReach spread_poses(const Pose* poses, std::size_t stride, std::size_t count, LanePose& lanes) {
+  switch (isa()) {
+    case Isa::avx512: return avx512::spread(poses, stride, count, lanes);
+    case Isa::avx2: return avx2::spread(poses, stride, count, lanes);
+    case Isa::baseline: break;
+  }
+  return baseline::spread(poses, stride, count, lanes);
+}
 
 void place_balls(const LanePose& link, std::span<const std::array<float, 3>> centres,
                  std::span<LaneBall> balls) {

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/core/pose.h"
+
 namespace touchstone {
 
 // The number of configurations that are asked together.
@@ -48,6 +50,14 @@ struct LaneHit {
   std::uint32_t row;
   std::uint32_t lanes;  // a bit a lane
 };
+
+// Of poses: the greatest orthonormal error, and the greatest absolute coordinate of a translation (metres).
+struct PoseReach {
+  double error, furthest;
+};
+
+// Spreads poses[0], poses[stride], ..., of which there are `count`, over as many lanes; lanes behind them repeat the last.
+PoseReach spread_poses(const Pose* poses, std::size_t stride, std::size_t count, LanePose& lanes);
 
 // Where points of a link are: `centres` in its frame.
 void place_balls(const LanePose& link, std::span<const std::array<float, 3>> centres,

@@ -89,3 +89,46 @@ TOUCHSTONE_TARGET void place(const LanePose& link, std::span<const std::array<fl
     }
   }
 }
+
+// By how much a product of two columns is not what it is in a rotation.
+TOUCHSTONE_TARGET inline Simd<double>::Vector column_error(const Simd<double>::Vector* a,
+                                                           const Simd<double>::Vector* b,
+                                                           double expected) {
+  return Simd<double>::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] -
+                           Simd<double>::broadcast(expected));
+}
+
+TOUCHSTONE_TARGET PoseReach spread(const Pose* poses, std::size_t stride, std::size_t count,
+                                   LanePose& lanes) {
+  using Wide = Simd<double>;
+  // Nine numbers of the rotation, column by column, and three of the translation.
+  constexpr std::size_t numbers = 12;
+  static_assert(sizeof(Pose) == numbers * sizeof(double));
+  auto error = Wide::broadcast(0), furthest = Wide::broadcast(0);
+  for (std::size_t at = 0; at < pose_lanes; at += Wide::width) {
+    const double* of_lane[Wide::width];
+    for (std::size_t lane = 0; lane < Wide::width; ++lane) {
+      of_lane[lane] =
+          reinterpret_cast<const double*>(poses + std::min(at + lane, count - 1) * stride);
+    }
+    Wide::Vector m[numbers];
+    for (std::size_t first = 0; first < numbers; first += 4) {
+      for (std::size_t k = 0; k < 4; ++k) m[first + k] = Wide::concat_at(of_lane + k);
+      Wide::transpose(m + first);
+      for (auto& pose : of_lane) pose += 4;
+    }
+    const Wide::Vector *a = m, *b = m + 3, *c = m + 6, *translation = m + 9;
+    error = Wide::max(error, Wide::max(column_error(a, a, 1), column_error(a, b, 0)));
+    error = Wide::max(error, Wide::max(column_error(b, b, 1), column_error(b, c, 0)));
+    error = Wide::max(error, Wide::max(column_error(c, c, 1), column_error(c, a, 0)));
+    for (std::size_t i = 0; i < 3; ++i) furthest = Wide::max(furthest, Wide::abs(translation[i]));
+    for (std::size_t i = 0; i < numbers; ++i) {
+      double one[Wide::width];
+      Wide::store(one, m[i]);
+      float* const to = lanes.rows[4 * (i % 3) + i / 3].data() + at;
+      for (std::size_t lane = 0; lane < Wide::width; ++lane)
+        to[lane] = static_cast<float>(one[lane]);
+    }
+  }
+  return {Wide::reduce_max(error), Wide::reduce_max(furthest)};
+}

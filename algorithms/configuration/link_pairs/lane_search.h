@@ -12,7 +12,6 @@
 #include "algorithms/configuration/link_pairs/ball_lanes.h"
 #include "algorithms/configuration/link_pairs/link_groups.h"
 #include "algorithms/configuration/link_pairs/pair_search.h"
-#include "algorithms/core/orthonormal_error.h"
 
 namespace touchstone {
 
@@ -256,29 +255,17 @@ class PoseLanes final : public PairSearch {
   // False if squares of floats may overflow or underflow.
   bool begin(const Configurations& all, std::size_t first, std::size_t count) {
     double furthest = 0, error = model_.orthonormal_error_of_parts();
-    for (const Pose& pose : all.poses.subspan(first * all.links, count * all.links)) {
-      furthest = std::max(furthest, pose.translation.cwiseAbs().maxCoeff());
-      error = std::max(error, orthonormal_error(pose.rotation));
+    const std::span<const Pose> poses = all.poses.subspan(first * all.links, count * all.links);
+    for (std::uint32_t link = 0; link < all.links; ++link) {
+      if (groups_.links()[link].parts.empty()) continue;
+      const PoseReach reach = spread_poses(&poses[link], all.links, count, lanes_of_links_[link]);
+      furthest = std::max(furthest, reach.furthest);
+      error = std::max(error, reach.error);
+      place(link, 0, 1);
     }
     const double furthest_point = furthest + reach_;
     if (!(furthest_point > 1e-12 && furthest_point < 1e15)) return false;
     slack_ = static_cast<float>((0x1p-19 + slack_of_error * error) * furthest_point);
-    for (std::uint32_t link = 0; link < all.links; ++link) {
-      if (groups_.links()[link].parts.empty()) continue;
-      LanePose& lanes = lanes_of_links_[link];
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        const Pose& pose = all.poses[(first + lane) * all.links + link];
-        for (std::size_t row = 0; row < 3; ++row) {
-          const auto i = static_cast<Eigen::Index>(row);
-          for (std::size_t k = 0; k < 3; ++k) {
-            lanes.rows[4 * row + k][lane] =
-                static_cast<float>(pose.rotation(i, static_cast<Eigen::Index>(k)));
-          }
-          lanes.rows[4 * row + 3][lane] = static_cast<float>(pose.translation[i]);
-        }
-      }
-      place(link, 0, 1);
-    }
     return true;
   }
 
