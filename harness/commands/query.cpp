@@ -168,8 +168,30 @@ void print_lines(const Questions& questions) {
   }
 }
 
+// The place of the oracle among the contestants, if it is asked.
+std::optional<std::size_t> oracle_of(const Questions& questions) {
+  for (std::size_t c = 0; c < questions.contestants(); ++c) {
+    if (questions.info(c).origin == Origin::oracle) return c;
+  }
+  return std::nullopt;
+}
+
+// Where a verdict is not the exact one: how often, and where first.
+std::string other_verdicts(const Questions& questions, std::size_t contestant, std::size_t oracle) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    const ShownAnswer shown = questions.shown(i, contestant), exact = questions.shown(i, oracle);
+    const bool are_answers = exact.status == Status::ok && shown.status != Status::unsupported;
+    if (!are_answers || shown.verdict == exact.verdict) continue;
+    if (count++ == 0) first = i;
+  }
+  if (count == 0) return "";
+  return fmt::format("; {} other than exact, the first in {}", count, questions.label(first));
+}
+
 // The number of each answer and each status of every algorithm.
 void print_counts(const Questions& questions) {
+  const std::optional<std::size_t> oracle = oracle_of(questions);
   const std::vector<std::string_view> verdicts = questions.verdicts();
   std::string line = fmt::format("{:<28}", "algorithm");
   for (const std::string_view verdict : verdicts) line += fmt::format(" {:>11}", verdict);
@@ -185,7 +207,8 @@ void print_counts(const Questions& questions) {
     }
     line = fmt::format("{:<28}", questions.name(c));
     for (const std::size_t count : counts) line += fmt::format(" {:>11}", count);
-    fmt::print("{}  {}\n", line, status_counts(statuses));
+    fmt::print("{}  {}{}\n", line, status_counts(statuses),
+               oracle ? other_verdicts(questions, c, *oracle) : "");
   }
 }
 
@@ -385,7 +408,10 @@ int query(const QueryOptions& options) {
   questions->write_further();
   if (csv) csv->close();
   const bool are_shown = !csv && questions->size() <= most_shown;
-  if (!questions->print_summary(are_shown) && !are_shown) print_counts(*questions);
+  if (!questions->print_summary(are_shown) && !are_shown) {
+    print_counts(*questions);
+    if (!csv) fmt::print("Every answer: --out FILE.csv\n");
+  }
   print_scalar_hint(*questions, input.scalar());
   fmt::print("{}", repeats_text());
   if (is_drawn) draw_pairs(*questions, input, page);

@@ -1,12 +1,16 @@
 // touchstone robot: which links of a robot touch, what its SRDF file hides, and who finds it out fastest.
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/base/error.h"
@@ -70,6 +74,7 @@ std::string scene_text(const RobotOptions& options) {
   } else if (!options.scene.empty()) {
     imports.push_back(absolute(options.scene));
   }
+  keys.insert("name", fs::path(options.robot).stem().string());
   keys.insert("import", std::move(imports));
   if (!options.srdf.empty()) keys.insert("srdf", absolute(options.srdf));
   const scene::Packages packages = packages_of(options);
@@ -140,8 +145,18 @@ std::string in_xml(const std::string& text) {
   return escaped;
 }
 
-// What an SRDF file may disable: joined links, and links that always or never touched.
-std::string proposal(const scene::Robot& robot, const report::LinkContacts& found) {
+// Links with shapes that a joint joins.
+std::vector<IndexPair> joined_with_shapes(const scene::Robot& robot) {
+  std::vector<IndexPair> pairs;
+  for (const auto& [a, b] : robot.joined) {
+    if (!robot.links[a].shapes.empty() && !robot.links[b].shapes.empty()) pairs.push_back({a, b});
+  }
+  return pairs;
+}
+
+// What an SRDF file may disable: joined links, and links that always or, of configurations at random, never touched.
+std::string proposal(const scene::Robot& robot, const report::LinkContacts& found,
+                     bool are_at_random) {
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n<!-- Seen in {} configurations. Look at each line: what was never "
       "seen may happen. -->\n"
@@ -151,14 +166,13 @@ std::string proposal(const scene::Robot& robot, const report::LinkContacts& foun
     text += fmt::format("  <disable_collisions link1=\"{}\" link2=\"{}\" reason=\"{}\"/>\n",
                         in_xml(first), in_xml(second), reason);
   };
-  for (const auto& [a, b] : robot.joined) {
-    const bool have_shapes = !robot.links[a].shapes.empty() && !robot.links[b].shapes.empty();
-    if (have_shapes) add(robot.links[a].name, robot.links[b].name, "Adjacent");
+  for (const auto& [a, b] : joined_with_shapes(robot)) {
+    add(robot.links[a].name, robot.links[b].name, "Adjacent");
   }
   for (const report::LinkPair& pair : found.pairs) {
     if (!pair.is_of_links || pair.unknown > 0) continue;
     if (pair.touching == found.configurations) add(pair.first, pair.second, "Always");
-    if (pair.touching == 0) add(pair.first, pair.second, "Never");
+    if (pair.touching == 0 && are_at_random) add(pair.first, pair.second, "Never");
   }
   return text + "</robot>\n";
 }
@@ -173,19 +187,34 @@ tasks = ["free"]
 queries = 1000
 rounds = 6
 )";
+constexpr std::size_t most_timed = 1000;
 
 // The folder of the measurements that `timed_file` asks for.
 fs::path times_folder(const fs::path& timed_file) { return timed_file.parent_path() / "times"; }
 
-// Times configuration queries, as `run` does with the file. Returns the exit status.
-int print_times(const fs::path& file) {
+// What of the graded answers is wrong, in words.
+std::string faults_of(const stats::GradeRow& grade) {
+  std::vector<std::string> faults;
+  const auto add = [&](std::int64_t count, std::string_view what) {
+    if (count > 0) faults.push_back(fmt::format("{} {}", count, what));
+  };
+  add(grade.missed, "contacts that it missed");
+  add(grade.false_hits, "contacts that are none");
+  add(grade.inexact, "contacts with a pair that does not touch");
+  return fmt::format("{}", fmt::join(faults, ", "));
+}
+
+// Times configuration queries, as `run` does with the file. Returns the exit status. `all`: the configurations, of which
+// the first are timed.
+int print_times(const fs::path& file, std::size_t all) {
   const fs::path folder = times_folder(file);
   const cells::CellRequest request = cells::read_cells(file);
   const cells::CellRunResult result =
       cells::run_cells(request, folder, record::FolderStart::overwrite, [](const std::string&) {});
   if (result.interrupted) return end_interrupted();
   for (const stats::CellTimes& set : stats::read_cell_times(folder)) {
-    fmt::print("\nWho says fastest whether a configuration is free ({}):\n", set.name.first);
+    fmt::print("\nWho says fastest whether a configuration is free ({}){}:\n", set.name.first,
+               all > most_timed ? fmt::format(", of the first {} of {}", most_timed, all) : "");
     base::Table table({"algorithm", "", "configurations a second", "wrong", "given up"});
     std::vector<stats::CellTimeRow> rows = set.rows;
     std::ranges::stable_sort(rows, [](const stats::CellTimeRow& a, const stats::CellTimeRow& b) {
@@ -199,8 +228,22 @@ int print_times(const fs::path& file) {
                  std::to_string(grade.gave_up)});
     }
     fmt::print("{}", table.text(base::page_width()));
+    for (const stats::CellTimeRow& row : rows) {
+      if (row.grade.silent() == 0) continue;
+      fmt::print("Wrong answers of {}: {}\n", row.grade.algorithm, faults_of(row.grade));
+    }
   }
   return result.ours_wrong ? exit_measured_wrong : exit_done;
+}
+
+void expect_ending(const std::string& file, std::initializer_list<std::string_view> endings,
+                   std::string_view expected) {
+  const std::string ending = fs::path(file).extension().string();
+  if (std::ranges::find(endings, ending) != endings.end()) return;
+  throw base::InputError(
+      file, 0,
+      fmt::format("found the ending '{}'; expected {}{}", base::printable(ending), expected,
+                  ending == ".xacro" ? ": xacro FILE > robot.urdf makes one" : ""));
 }
 
 int look_at(const RobotOptions& options) {
@@ -211,6 +254,13 @@ int look_at(const RobotOptions& options) {
   for (const std::string& file : {options.robot, options.scene, options.srdf, options.path}) {
     if (!file.empty()) base::check_kind(file, "a file of the robot");
   }
+  expect_ending(options.robot, {".urdf"}, "a robot (.urdf)");
+  if (!options.scene.empty() && !scene::is_yaml(options.scene)) {
+    expect_ending(options.scene, {".toml", ".json"},
+                  "--scene: a scene (.toml, .json), or MoveIt's planning scene (.yaml)");
+  }
+  // Faults of the robot are told with its own lines.
+  const scene::Robot robot = scene::read_robot(options.robot, options.srdf, packages_of(options));
   const std::string text = scene_text(options);
   const scene::Scene scene = scene::scene_of_text(text, scene_file);
   std::vector<files::NamedFile> outputs;
@@ -224,7 +274,6 @@ int look_at(const RobotOptions& options) {
       throw base::InputError(file.string() + " is there; expected another --out, or --overwrite");
     }
   }
-  const scene::Robot robot = scene::read_robot(options.robot, options.srdf, packages_of(options));
   std::size_t shapes = 0;
   for (const scene::Link& link : robot.links) shapes += link.shapes.size();
   if (scene.tracks.bodies.size() != shapes) {
@@ -245,8 +294,16 @@ int look_at(const RobotOptions& options) {
     fmt::print("Left out: what SRDF says of \"{}\", which the robot does not have\n",
                base::printable(link));
   }
-  fmt::print("Free: {} of {} configurations, {}: no pair touches that is asked{}\n", found.free,
-             all, share(found.free, all),
+  if (const std::size_t joined = joined_with_shapes(robot).size(); joined > 0) {
+    fmt::print(
+        "Not asked: {} pairs of links that a joint joins, directly or through links without "
+        "shapes; proposed.srdf calls them Adjacent\n",
+        joined);
+  }
+  const bool is_any_asked = std::ranges::any_of(
+      found.pairs, [](const report::LinkPair& pair) { return !pair.is_disabled; });
+  fmt::print("Free: {} of {} configurations, {}: {}{}\n", found.free, all, share(found.free, all),
+             is_any_asked ? "no pair touches that is asked" : "no pair is asked",
              found.unknown > 0 ? fmt::format("; not known of {}", found.unknown) : "");
 
   std::vector<report::LinkPair> always, some, hidden;
@@ -274,15 +331,18 @@ int look_at(const RobotOptions& options) {
   }
   files::write_text(scene_file, text);
   write_csv(pairs_file, found);
-  files::write_text(srdf_file, proposal(robot, found));
+  files::write_text(srdf_file, proposal(robot, found, options.path.empty()));
   files::write_text(timed_file, std::string(timed_text));
-  const int status = print_times(timed_file);
+  const int status = is_any_asked ? print_times(timed_file, all) : exit_done;
+  fmt::print("\nAll pairs that are asked, or that SRDF disables: {}\n", pairs_file.string());
+  fmt::print("An SRDF file that leaves out joined links and what always{} touched: {}\n",
+             options.path.empty() ? " or never" : "", srdf_file.string());
+  if (!is_any_asked) return status;
   fmt::print(
-      "\nAll pairs: {}\nAn SRDF file that leaves out what always or never touched: {}\n"
-      "These times again, with intervals: touchstone run {}\n"
-      "Broad and narrow phases apart: touchstone run --scene {} --frames {}\n",
-      pairs_file.string(), srdf_file.string(), timed_file.string(), scene_file.string(),
-      std::min<std::size_t>(64, all));
+      "These times again, with intervals: touchstone run {} --out {}\n"
+      "Broad and narrow phases apart: touchstone run --scene {} --frames {} --out {}\n",
+      timed_file.string(), (out / "times-again").string(), scene_file.string(),
+      std::min<std::size_t>(64, all), (out / "phases").string());
   return status;
 }
 

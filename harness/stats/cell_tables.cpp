@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -137,6 +140,41 @@ std::string speed_up_section(const std::vector<CellSpeedUpRow>& speed_ups) {
   return fmt::format("## Several threads against one\n\n{}\n", table.markdown());
 }
 
+// Who was wrong, and who crashed or did not end, over all cells.
+std::string faults_text(const std::vector<CellTimeRow>& rows) {
+  struct Faults {
+    std::int64_t cells = 0, graded = 0, missed = 0, false_hits = 0, inexact = 0;
+    std::map<std::string, int> ends;  // by status: cells
+  };
+  std::map<std::string, Faults> of_algorithm;
+  for (const CellTimeRow& row : rows) {
+    Faults& faults = of_algorithm[row.grade.algorithm];
+    if (row.grade.status != "ok" && row.grade.status != "unsupported" &&
+        row.grade.status != "wrong")
+      ++faults.ends[row.grade.status];
+    if (row.grade.silent() == 0) continue;
+    ++faults.cells;
+    faults.graded += row.grade.graded;
+    faults.missed += row.grade.missed;
+    faults.false_hits += row.grade.false_hits;
+    faults.inexact += row.grade.inexact;
+  }
+  base::Table table({"wrong answers of", "cells", "missed", "false hits", "inexact", "of"});
+  std::string text;
+  bool is_any_wrong = false;
+  for (const auto& [name, faults] : of_algorithm) {
+    for (const auto& [status, cells] : faults.ends) {
+      text += fmt::format("{}: {} in {} cell{}\n", name, status, cells, cells == 1 ? "" : "s");
+    }
+    if (faults.cells == 0) continue;
+    is_any_wrong = true;
+    table.add({name, std::to_string(faults.cells), std::to_string(faults.missed),
+               std::to_string(faults.false_hits), std::to_string(faults.inexact),
+               std::to_string(faults.graded)});
+  }
+  return "\n" + (is_any_wrong ? table.text(base::page_width()) : "No answer is wrong.\n") + text;
+}
+
 // The facts of the folder's machine of these names, as a list in Markdown.
 std::string facts_of(const std::filesystem::path& folder) {
   const record::Facts facts = record::read_facts(folder / "machine.csv");
@@ -195,7 +233,7 @@ std::string write_cell_tables(const std::filesystem::path& folder, const std::st
           "second\nregistration of the baseline: its ratio shows the error of the measurement.\n\n"
           "## Ours against the libraries\n\n{}\n{}{}",
           name, facts_of(folder), best.markdown(), speed_up_section(speed_ups), sections));
-  return best.text(base::page_width());
+  return best.text(base::page_width()) + faults_text(times);
 }
 
 }  // namespace touchstone::stats

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -40,6 +41,10 @@ scene::Scene scene_with(const std::string& target, const fs::path& configuration
       keys = toml::parse_file(target);
     } catch (const toml::parse_error& error) {
       throw base::InputError(target, error.source().begin.line, std::string(error.description()));
+    }
+    if (!keys.contains("import")) {
+      throw base::InputError(
+          target, 0, "has no robot; expected a scene with the key import, such as \"arm.urdf\"");
     }
     keys.erase("held");
   } else {
@@ -80,14 +85,16 @@ class ConfigurationQuestions final : public AnswersOf<ConfigurationEntry, Config
 
   std::size_t size() const override { return size_; }
   std::string label(std::size_t i) const override {
-    return task_ == ConfigurationTask::motion ? "motion" : fmt::format("configuration {}", i);
+    return task_ == ConfigurationTask::motion
+               ? fmt::format("motion of {} configurations; between them nothing is asked", steps_)
+               : fmt::format("configuration {}", i);
   }
   std::vector<files::NamedFile> inputs() const override { return inputs_; }
   std::string_view unit() const override { return "m"; }
 
   std::vector<AskFailure> ask(std::size_t contestant) override {
     const ConfigurationEntry& entry = *asked_[contestant].entry;
-    const bool takes = supports(entry, made_.model);
+    const bool takes = std::ranges::count(entry.tasks, task_) > 0 && supports(entry, made_.model);
     return ask_each(
         contestant, input_.seconds(), [takes](std::size_t) { return takes; },
         [&] {
@@ -127,7 +134,7 @@ class ConfigurationQuestions final : public AnswersOf<ConfigurationEntry, Config
                                base::printable(name_of(given.pair.b)));
     }
     if (given.step != ConfigurationAnswer::none) {
-      shown.more += fmt::format("; first in step {}", given.step);
+      shown.more += fmt::format("; first in step {} of 0 to {}", given.step, steps_ - 1);
     }
     return shown;
   }

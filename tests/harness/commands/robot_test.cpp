@@ -48,7 +48,9 @@ TEST_F(RobotCommand, LeavesOutLinksThatShareAnEmptyLink) {
   const Ran ran = run_program("robot " + path("rail.urdf") + " --random 20 --out " + path("out"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("rail: 5 links, 4 shapes, 4 joints with a value; 0 bodies"));
-  EXPECT_THAT(ran.text, HasSubstr("Free: 20 of 20"));
+  EXPECT_THAT(ran.text, HasSubstr("Not asked: 6 pairs of links that a joint joins"));
+  EXPECT_THAT(ran.text, HasSubstr("Free: 20 of 20 configurations, 100 %: no pair is asked"));
+  EXPECT_THAT(ran.text, Not(HasSubstr("Who says fastest"))) << "of nothing";
 }
 
 TEST_F(RobotCommand, CountsContactsAndWhatSrdfHides) {
@@ -118,6 +120,9 @@ TEST_F(RobotCommand, TakesRecordedConfigurations) {
               ContainsRegex("Always in contact[^:]*:[^\n]*\nlinks[^\n]*\n-+\nhigh, tip +2 +100 %"));
   EXPECT_THAT(ran.text, ContainsRegex("low, middle +1 +50 %"));
   EXPECT_THAT(ran.text, Not(HasSubstr("at 95 %"))) << "recorded ones are no sample";
+  const std::string proposal = folder_.read("out/proposed.srdf");
+  EXPECT_THAT(proposal, Not(HasSubstr("Never"))) << "they show nothing of others";
+  EXPECT_THAT(proposal, HasSubstr("reason=\"Always\""));
 }
 
 // An obstacle may have the name of a link, and bodies without one are told apart.
@@ -146,6 +151,10 @@ TEST_F(RobotCommand, RefusesWhatItCannotRead) {
   expect_refusal("robot " + path("bad.urdf") + " --out " + path("out"), "no attribute name",
                  folder_);
   expect_refusal("robot " + path("rail.urdf") + " --meshes wire", "wire", folder_);
+  folder_.write("world.toml", "[[body]]\nshape = {type = \"sphere\", radius = 1}\n");
+  expect_refusal("robot " + path("world.toml"), "world.toml: found the ending '.toml'", folder_);
+  expect_refusal("robot " + path("rail.urdf") + " --scene " + path("rail.urdf"),
+                 "expected --scene: a scene (.toml, .json)", folder_);
   expect_refusal("robot " + path("rail.urdf") + " --scene " + path("none.toml"), "none.toml",
                  folder_);
   expect_refusal("robot " + path("rail.urdf") + " --srdf " + path("none.srdf"), "none.srdf",

@@ -222,7 +222,12 @@ TEST_F(QueryKinds, ConfigurationsOfARobotAreFreeOrNot) {
   EXPECT_THAT(free, Not(HasSubstr("[exact:")));
   const std::string distance = shown(asked + " --task distance");
   EXPECT_THAT(distance, ContainsRegex("configuration 1\n  exact +free +0.0[45]"));
-  EXPECT_THAT(shown(asked + " --task motion"), HasSubstr("first in step 2"));
+  EXPECT_THAT(distance, ContainsRegex("not taken by [a-z, -]*pose-lanes"));
+  EXPECT_THAT(shown(asked + " --task motion"), HasSubstr("first in step 2 of 0 to 2"));
+  const std::string scene =
+      write("none.toml", "[[body]]\nshape = {type = \"sphere\", radius = 1}\n");
+  expect_refusal("query " + rows + " --kind configuration --in " + scene, "none.toml: has no robot",
+                 folder);
   std::string level = small_robot;  // joints may be called as the columns of points are
   for (const auto& [from, to] : {std::pair("turn", "x"), {"lift", "y"}, {"slide", "z"}}) {
     level.replace(level.find(from), std::string(from).size(), to);
@@ -314,6 +319,20 @@ TEST_F(QueryKinds, ManyQuestionsAreSummedUp) {
       shown(write("points.csv", points) + " --in " + write("mesh.obj", small_tetrahedron));
   EXPECT_THAT(text, Not(HasSubstr("point 0")));
   EXPECT_THAT(text, ContainsRegex("exact +20 +0 +ok 20"));
+  EXPECT_THAT(text, HasSubstr("Every answer: --out FILE.csv"));
+}
+
+// Balls that are nearer to contact than a float tells.
+TEST_F(QueryKinds, VerdictsThatAreNotTheExactOneAreCounted) {
+  if (!is_built(registry::find<ConfigurationEntry>("bullet-world")->info)) GTEST_SKIP();
+  std::string rows = "slide\n";
+  for (int i = -10; i < 10; ++i) rows += fmt::format("{}\n", 0.3 + i * 1e-9);
+  const std::string text =
+      shown(write("joints.csv", rows) + " --in " + write("rail.urdf", small_robot) +
+            " --with exact,ours,bullet-world");
+  EXPECT_THAT(text, ContainsRegex("bullet-world .*; [1-9][0-9]* other than exact, the first in "
+                                  "configuration [0-9]+\n"));
+  EXPECT_THAT(text, ContainsRegex("fixed-pairs +[1-9][0-9]* +[1-9][0-9]* +0 +ok 20\n"));
 }
 
 TEST_F(QueryKinds, OtherSpellingsSelectAlgorithms) {
