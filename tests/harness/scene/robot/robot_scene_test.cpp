@@ -388,7 +388,7 @@ TEST_F(RobotScenes, TurnContinuousJointsTheShorterWay) {
 }
 
 TEST(RobotDatasets, AreWhatTheyWere) {
-  const std::map<std::string, std::string> hashes = {{"arm", "90b5762201f755d5"},
+  const std::map<std::string, std::string> hashes = {{"arm", "eae3eb4cd22c770d"},
                                                      {"walker", "792afd2a66f12234"}};
   for (const auto& [name, hash] : hashes) {
     const scene::Scene scene = scene::load_scene(std::filesystem::path(project_folder) /
