@@ -6,13 +6,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
 #include "algorithms/hull/convex_hull.h"
 #include "harness/base/input_file.h"
 #include "harness/base/nearest_name.h"
+#include "harness/base/warning.h"
 
 namespace touchstone::files {
 namespace {
@@ -270,8 +270,9 @@ void KeyWarnings::look_within(const JsonNode& node, int depth) {
       continue;
     }
     if (const auto known = meant(key)) {
-      fmt::print(stderr, "{}:{}: warning: the key \"{}\" is ignored; perhaps \"{}\" was meant\n",
-                 node.file(), node.line(), base::shortened(key), *known);
+      base::warn(node.file(), node.line(),
+                 fmt::format("the key \"{}\" is ignored; perhaps \"{}\" was meant",
+                             base::shortened(key), *known));
     }
   }
   for (const char* inner : {"a", "b", "shape"}) {

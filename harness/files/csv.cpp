@@ -194,9 +194,13 @@ void CsvReader::read(const std::function<void(const Row&)>& row) const {
     row(current);
   });
   if (width == 0) {
-    throw base::InputError(file, 1,
-                           fmt::format("an empty file; expected a header line with the columns {}",
-                                       fmt::join(required(), ",")));
+    throw base::InputError(
+        file, 1,
+        required().empty()
+            ? fmt::format("an empty file; expected a header line with some of {}",
+                          fmt::join(columns_, ","))
+            : fmt::format("an empty file; expected a header line with the columns {}",
+                          fmt::join(required(), ",")));
   }
 }
 

@@ -164,6 +164,8 @@ Scene import_scene(const std::filesystem::path& file, const MeshUses& uses) {
       file.string(), 0,
       file.extension() == ".jsonl"
           ? "holds single pairs; `touchstone query FILE --page OUT.html` draws them"
+      : file.extension() == ".xacro"
+          ? "macros of a robot; expected an expanded file: `xacro FILE > robot.urdf`"
           : "unknown kind of file; expected .toml, .json (rigid-ipc), .urdf (a robot) or .aabbs "
             "(Broadmark)");
 }

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "harness/base/error.h"
+#include "harness/base/input_file.h"
 #include "harness/base/random.h"
+#include "harness/base/warning.h"
 #include "harness/files/csv.h"
 
 namespace touchstone::scene {
@@ -16,6 +19,7 @@ namespace touchstone::scene {
 namespace {
 
 constexpr double most_value = 1e9;  // radians or metres
+constexpr double rounding = 1e-6;   // the same: how far planners go beyond limits
 
 void set_values(const Robot& robot, const std::map<std::string, double>& values,
                 UsualConfiguration& configuration) {
@@ -25,6 +29,11 @@ void set_values(const Robot& robot, const std::map<std::string, double>& values,
     configuration.given[joint] = 1;
   }
   follow_mimics(robot, configuration.values, configuration.given);
+}
+
+bool is_beyond(const Joint& joint, double value) {
+  return joint.is_free() && joint.kind != JointKind::continuous &&
+         (value < joint.lower - rounding || value > joint.upper + rounding);
 }
 
 }  // namespace
@@ -59,6 +68,9 @@ TimedConfigurations read_configurations(const std::filesystem::path& file, const
   }
   const files::CsvReader reader(file, {}, columns, files::CsvReader::Others::refused);
   TimedConfigurations read;
+  std::string first_beyond;  // what is said of the first row that is beyond limits
+  std::int64_t line_beyond = 0;
+  std::size_t rows_beyond = 0;
   std::vector<char> given = usual.given;
   double first = 0, last = 0;
   const auto finite = [](const files::CsvReader::Row& row, std::size_t column) {
@@ -80,17 +92,31 @@ TimedConfigurations read_configurations(const std::filesystem::path& file, const
     }
     Configuration& values = read.frames.emplace_back(usual.values);
     bool any = false;
+    std::optional<std::size_t> beyond;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       if (row.is_absent(i + 1)) continue;
       any = true;
       given[joints[i]] = 1;
       values[joints[i]] = finite(row, i + 1);
+      if (!beyond && is_beyond(robot.joints[joints[i]], values[joints[i]])) beyond = joints[i];
+    }
+    if (beyond && rows_beyond++ == 0) {
+      const Joint& joint = robot.joints[*beyond];
+      line_beyond = row.line();
+      first_beyond =
+          fmt::format("{}: {} is outside of the joint's limits, {} to {}",
+                      base::shortened(joint.name), values[*beyond], joint.lower, joint.upper);
     }
     if (!any) row.fail("no column of a joint; expected one at least, named as a joint that moves");
     follow_mimics(robot, values, given);
   });
   if (read.frames.empty()) {
     throw base::InputError(file.string(), 1, "no row behind the header; expected at least one");
+  }
+  if (rows_beyond > 0) {
+    base::warn(file.string(), line_beyond,
+               fmt::format("{}; rows with such values: {} of {}", first_beyond, rows_beyond,
+                           read.frames.size()));
   }
   if (read.frames.size() > 1) {
     read.time_step = (last - first) / static_cast<double>(read.frames.size() - 1);

@@ -34,8 +34,9 @@ struct TimedConfigurations {
 };
 
 // Reads a CSV file with a column a joint (radians, metres), named as the joint, and often a column `time` (seconds,
-// rising). A row is a frame. Joints without a column have their usual value, or follow those that they mimic. Throws
-// InputError with file and line, also for a column that is no joint which moves.
+// rising). A row is a frame. Joints without a column have their usual value, or follow those that they mimic. Warns of
+// values that are more than 1e-6 outside of the limits of a joint. Throws InputError with file and line, also for a
+// column that is no joint which moves.
 TimedConfigurations read_configurations(const std::filesystem::path& file, const Robot& robot,
                                         const UsualConfiguration& usual);
 

@@ -2,7 +2,9 @@
 #include "harness/scene/robot/planning_scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string_view>
@@ -90,6 +92,11 @@ void read_values(const YamlNode& state, std::map<std::string, double>& values) {
 class PlanningSceneReader {
  public:
   PlanningScene read(const YamlNode& top) {
+    constexpr std::array keys = {"world", "robot_state", "allowed_collision_matrix"};
+    if (std::ranges::none_of(keys, [&](const char* key) { return top.find(key).has_value(); })) {
+      top.fail(
+          fmt::format("no key of a planning scene; expected some of {}", fmt::join(keys, ", ")));
+    }
     if (const auto state = top.find("robot_state")) read_state(*state);
     if (const auto world = top.find("world")) {
       for (const YamlNode& object : world->elements("collision_objects")) read_object(object);

@@ -36,8 +36,9 @@ bool is_yaml(const std::filesystem::path& file);
 
 // Reads a planning scene (moveit_msgs/PlanningScene as YAML): the objects of `world` with primitives (box, sphere,
 // cylinder, cone) and meshes, `allowed_collision_matrix`, and where the robot stands. Positions and quaternions (x, y, z,
-// w) are lists or maps. Throws InputError with file and line: also for what it does not take, which is planes, attached
-// objects, octomaps, padding, scaling, and collisions that are allowed by default.
+// w) are lists or maps. Throws InputError with file and line: also for a file with none of these, and for what it
+// does not take, which is planes, attached objects, octomaps, padding, scaling, and collisions that are allowed by
+// default.
 PlanningScene read_planning_scene(const std::filesystem::path& file);
 
 }  // namespace touchstone::scene

@@ -1,5 +1,6 @@
 // Reads robots from URDF and SRDF.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,9 @@
 
 #include "harness/base/error.h"
 #include "harness/base/input_file.h"
+#include "harness/base/nearest_name.h"
 #include "harness/base/reproducible_math.h"
+#include "harness/geometry/mesh.h"
 #include "harness/scene/robot/robot.h"
 #include "harness/scene/robot/xml_element.h"
 
@@ -47,6 +50,15 @@ bool is_file(const fs::path& file) {
   return fs::is_regular_file(file, error);
 }
 
+void expect_expanded(const XmlElement& element) {
+  for (const XmlElement& child : element.children()) {
+    if (child.name().starts_with("xacro:")) {
+      child.fail("a macro; expected an expanded file: `xacro FILE > robot.urdf`");
+    }
+    expect_expanded(child);
+  }
+}
+
 class UrdfReader {
  public:
   UrdfReader(const fs::path& file, const Packages& packages)
@@ -55,6 +67,7 @@ class UrdfReader {
   Robot read() {
     const XmlFile xml(file_, "robot");
     const XmlElement root = xml.root();
+    expect_expanded(root);
     robot_.name = root.has("name") ? root.text("name") : file_.stem().string();
     const std::vector<XmlElement> links = root.children("link"), joints = root.children("joint");
     if (links.empty() || links.size() > most_links) {
@@ -124,6 +137,12 @@ class UrdfReader {
       shape.half_length = 0.5 * size(element, "length");
     } else if (kind == "mesh") {
       read.mesh = mesh_file(element);
+      if (!geometry::is_mesh_file(read.mesh)) {
+        element.fail(
+            fmt::format("filename: the format of \"{}\" is not read; expected .obj, .off, .stl or "
+                        ".ply. Convert it to .obj or .stl",
+                        base::shortened(read.mesh.string(), 400)));
+      }
       read.scale = element.vector("scale", Vec3d::Ones());
       if (read.scale.cwiseAbs().minCoeff() == 0) element.fail("scale: found 0; expected another");
     } else {
@@ -134,23 +153,34 @@ class UrdfReader {
 
   fs::path mesh_file(const XmlElement& element) const {
     const std::string name = element.text("filename");
-    const auto expect = [&](const std::vector<fs::path>& places) {
+    const auto refuse = [&](const std::string& reason) {
+      element.fail(fmt::format("filename: \"{}\" {}", base::shortened(name), reason));
+    };
+    const auto found_in = [&](const std::vector<fs::path>& places, const char* expected) {
       const auto found = std::ranges::find_if(places, is_file);
       if (found == places.end()) {
         std::string tried;
         for (const fs::path& place : places) tried += (tried.empty() ? "" : ", ") + place.string();
-        element.fail(
-            fmt::format("filename: \"{}\" is not there; tried {}. Expected the key "
-                        "packages with the folder of its package",
-                        base::shortened(name), base::shortened(tried, 800)));
+        refuse(fmt::format("is not there; tried {}. Expected {}", base::shortened(tried, 800),
+                           expected));
       }
       return *found;
     };
     for (const std::string_view scheme : {"package://", "model://"}) {
-      if (name.starts_with(scheme)) return expect(package_places(name.substr(scheme.size())));
+      if (!name.starts_with(scheme)) continue;
+      return found_in(package_places(name.substr(scheme.size())),
+                      "the key packages with the folder of its package");
+    }
+    if (name.find("$(") != std::string::npos || name.find("${") != std::string::npos) {
+      refuse("is to be expanded; expected an expanded file: `xacro FILE > robot.urdf`");
     }
     const std::string_view local = "file://";
-    return expect({folder_ / (name.starts_with(local) ? name.substr(local.size()) : name)});
+    const bool is_local = name.starts_with(local);
+    if (!is_local && name.find("://") != std::string::npos) {
+      refuse("is no file; expected a path, file:// or package://");
+    }
+    return found_in({folder_ / (is_local ? name.substr(local.size()) : name)},
+                    "a mesh, by a path from the robot's file");
   }
 
   std::vector<fs::path> package_places(const std::string& path) const {
@@ -204,6 +234,10 @@ class UrdfReader {
       joint.upper = pi;
     } else if (joint.moves()) {
       const XmlElement limit = element.required("limit");
+      // URDF takes 0 for both, so that the joint would stand still.
+      if (!limit.has("lower") && !limit.has("upper") && !element.child("mimic")) {
+        limit.fail("neither lower nor upper; expected the range of the joint");
+      }
       joint.lower = limit.number("lower", 0.0);
       joint.upper = limit.number("upper", 0.0);
       if (joint.lower > joint.upper) {
@@ -244,11 +278,16 @@ class UrdfReader {
   void order_joints(const XmlElement& root) {
     std::vector<char> reached(robot_.links.size(), 1);
     for (const Joint& joint : robot_.joints) reached[joint.child] = 0;
-    const auto roots = std::ranges::count(reached, char{1});
-    if (roots != 1) {
-      root.fail(roots == 0
+    std::vector<std::string> roots;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      if (reached[i] != 0) roots.push_back(fmt::format("\"{}\"", robot_.links[i].name));
+    }
+    if (roots.size() != 1) {
+      root.fail(roots.empty()
                     ? "every link is a child; expected a tree, with a link that is none"
-                    : fmt::format("{} links are no joint's child; expected one, the root", roots));
+                    : fmt::format("{} links are no joint's child: {}; expected one, the root",
+                                  roots.size(),
+                                  base::shortened(fmt::format("{}", fmt::join(roots, ", ")), 400)));
     }
     robot_.root = static_cast<std::uint32_t>(std::ranges::find(reached, char{1}) - reached.begin());
     // The new place of each joint, from which mimics follow.
@@ -335,10 +374,37 @@ LinkPairs joined_pairs(const Robot& robot) {
   return pairs;
 }
 
+// Warns of what SRDF does not know, and of a file of another robot.
+void check_srdf(const XmlElement& root, const Robot& robot) {
+  constexpr std::string_view known[] = {"disable_collisions",
+                                        "disable_default_collisions",
+                                        "enable_collisions",
+                                        "end_effector",
+                                        "group",
+                                        "group_state",
+                                        "joint_property",
+                                        "link_sphere_approximation",
+                                        "passive_joint",
+                                        "virtual_joint"};
+  expect_expanded(root);
+  if (root.has("name") && root.text("name") != robot.name) {
+    root.warn(fmt::format("of the robot \"{}\"; expected \"{}\", as in the URDF file",
+                          base::shortened(root.text("name")), base::shortened(robot.name)));
+  }
+  for (const XmlElement& element : root.children()) {
+    const std::string name = element.name();
+    if (name == "link" || name == "joint") element.fail("of URDF; expected SRDF");
+    if (std::ranges::find(known, name) == std::end(known)) {
+      element.warn("is left out: " + base::unknown_name("element of SRDF", name, known));
+    }
+  }
+}
+
 // Returns the pairs that are disabled.
 LinkPairs read_srdf(const fs::path& file, Robot& robot) {
   const XmlFile xml(file, "robot");
   const XmlElement root = xml.root();
+  check_srdf(root, robot);
   LinkPairs pairs;
   // Files name links that a robot's variant does not have.
   const auto link = [&](const XmlElement& element, const char* attribute) {

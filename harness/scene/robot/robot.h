@@ -87,8 +87,10 @@ struct Packages {
 // ignored (visual, inertial, transmission...). A package that `packages` does not have is a folder of its name beside the
 // URDF file, or above. Reads of an SRDF file (wiki.ros.org/srdf) which collisions it disables, and group states. An
 // empty `srdf` is the file of that ending beside the URDF file, if there is one.
-// Throws InputError with file, line and what was expected: also for joints that are floating or planar, make a loop or
-// leave a link alone; for names that are there twice or that nothing has; and for files that are missing.
+// Warns of elements that SRDF does not have, and of an SRDF file of another robot. Throws InputError with file, line and
+// what was expected: also for joints that are floating or planar, lack a range, make a loop or leave a link alone; for
+// names that are there twice or that nothing has; for macros of xacro; and for meshes that are missing or of a format
+// that is not read.
 Robot read_robot(const std::filesystem::path& urdf, const std::filesystem::path& srdf = {},
                  const Packages& packages = {});
 

@@ -10,11 +10,16 @@
 
 #include "harness/base/error.h"
 #include "harness/base/input_file.h"
+#include "harness/base/warning.h"
 
 namespace touchstone::scene {
 
 void XmlElement::fail(const std::string& message) const {
   throw base::InputError(*file_, line(), fmt::format("<{}>: {}", name(), message));
+}
+
+void XmlElement::warn(const std::string& message) const {
+  base::warn(*file_, line(), fmt::format("<{}>: {}", name(), message));
 }
 
 std::int64_t XmlElement::line() const { return element_->GetLineNum(); }

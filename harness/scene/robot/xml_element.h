@@ -24,6 +24,7 @@ class XmlElement {
       : element_(element), file_(file) {}
 
   [[noreturn]] void fail(const std::string& message) const;
+  void warn(const std::string& message) const;
   std::int64_t line() const;
   std::string name() const;
 

@@ -117,8 +117,15 @@ Pose YamlNode::pose() const {
 YamlNode read_yaml(const std::filesystem::path& file, const std::string& expected) {
   const std::string text = base::read_whole(file, base::longest_text, expected);
   try {
-    YamlNode node(YAML::Load(text), file.string());
-    node.find("");  // throws unless it is a map
+    const YAML::Node top = YAML::Load(text);
+    YamlNode node(top, file.string());
+    if (!top.IsMap()) {
+      node.fail(fmt::format("found {}; expected {}: a map of keys",
+                            top.IsSequence() ? "a list"
+                            : top.IsScalar() ? "a text"
+                                             : "nothing",
+                            expected));
+    }
     return node;
   } catch (const YAML::Exception& e) {
     throw base::InputError(file.string(), e.mark.line + 1,

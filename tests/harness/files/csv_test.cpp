@@ -96,6 +96,9 @@ TEST_F(Csv, OptionalColumnsAreEmptyWhereThereAreNone) {
               ::testing::EndsWith("no column 'b'; expected a header line with the columns b"));
   EXPECT_THAT(input_fault([&] { seen("b,c,c\n1,2,3\n"); }),
               ::testing::EndsWith("column 'c' comes twice"));
+  const files::CsvReader all_optional(folder.write("none.csv", ""), {}, {"a", "b"});
+  EXPECT_THAT(input_fault([&] { all_optional.read([](const files::CsvReader::Row&) {}); }),
+              ::testing::EndsWith("expected a header line with some of a,b"));
 }
 
 TEST_F(Csv, ReadsWhatTheFormatAllows) {

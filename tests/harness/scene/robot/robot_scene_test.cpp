@@ -105,9 +105,23 @@ TEST_F(RobotScenes, RefuseMalformedFilesOfConfigurations) {
   EXPECT_THAT(fault_of("turn\n0\nup\n"), HasSubstr("path.csv:3:"));
   EXPECT_THAT(fault_of("turn\ninf\n"), HasSubstr("path.csv:2: turn: found inf"));
   EXPECT_THAT(fault_of("turn\n"), HasSubstr("no row behind the header"));
+  EXPECT_THAT(fault_of(""), HasSubstr("expected a header line with some of time,turn,rise"));
   EXPECT_THAT(fault_of("time\n0\n"), HasSubstr("no column of a joint"));
   EXPECT_THAT(fault_of("time,turn\n1,0\n1,0\n"), HasSubstr("path.csv:3: time 1 after 1"));
   EXPECT_THAT(fault("configurations = \"none.csv\"\n"), HasSubstr("scene.toml:2:"));
+}
+
+TEST_F(RobotScenes, WarnOfConfigurationsBeyondLimits) {
+  const auto warning_of = [&](const std::string& csv) {
+    folder_.write("path.csv", csv);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(load("configurations = \"path.csv\"\n").frames, 4);
+    return folder_.without_path(testing::internal::GetCapturedStderr());
+  };
+  EXPECT_EQ(warning_of("turn,rise\n2.0000001,0\n-2,1\n0,-1e-7\n0,0\n"), "");
+  EXPECT_EQ(warning_of("turn,rise\n0,0\n2.5,1\n3,-1\n0,1.5\n"),
+            "path.csv:3: warning: turn: 2.5 is outside of the joint's limits, -2 to 2; rows with "
+            "such values: 3 of 4\n");
 }
 
 TEST_F(RobotScenes, DrawConfigurationsWithinLimits) {
@@ -206,6 +220,12 @@ TEST_F(RobotScenes, ReadProblemsOfMotionPlanning) {
   EXPECT_FALSE(filter.asks({3, 4})) << "the world against itself";
 }
 
+TEST_F(RobotScenes, RefuseMacros) {
+  EXPECT_THAT(
+      input_fault([&] { scene::load_scene(folder_.write("crane.urdf.xacro", crane_urdf)); }),
+      HasSubstr("expected an expanded file: `xacro FILE > robot.urdf`"));
+}
+
 TEST_F(RobotScenes, RefuseMalformedProblems) {
   const auto fault_of = [&](std::string text, const std::string& old, const std::string& now) {
     const auto at = text.find(old);
@@ -230,6 +250,14 @@ TEST_F(RobotScenes, RefuseMalformedProblems) {
   EXPECT_THAT(fault_of(problem_scene, "[{position: [0, 0, 1]}, ", "["),
               HasSubstr("2 primitives and 1 primitive_poses"));
   EXPECT_THAT(fault_of(problem_scene, "[1, 0, 5]", "[1, 0, 5"), HasSubstr("malformed YAML"));
+  EXPECT_THAT(fault_of(problem_scene, problem_scene, ""),
+              HasSubstr("problem.yaml: found nothing; expected a planning scene in YAML: a map"));
+  EXPECT_THAT(fault_of(problem_scene, problem_scene, "- world\n"), HasSubstr("found a list"));
+  EXPECT_THAT(fault_of(problem_scene, problem_scene, "hello: 1\n"),
+              HasSubstr("problem.yaml:1: no key of a planning scene; expected some of world, "
+                        "robot_state, allowed_collision_matrix"));
+  EXPECT_THAT(fault_of(problem_scene, problem_scene, problem_request),
+              HasSubstr("no key of a planning scene"));
   EXPECT_THAT(fault_of(problem_request, "joint_name: turn", "joint_name: tilt"),
               HasSubstr("request.yaml:4: the robot has no joint \"tilt\""));
   EXPECT_THAT(fault_of(problem_request, "[0, 0.5]", "[0]"), HasSubstr("2 names and 1 positions"));

@@ -211,8 +211,63 @@ TEST(Robots, ThatAreMalformedAreRefusedWithTheirPlace) {
   EXPECT_THAT(fault_of(with("<capsule radius=\"0.1\" length=\"0.4\"/>",
                             "<mesh filename=\"package://kit/hand.stl\"/>")),
               HasSubstr("\"package://kit/hand.stl\" is not there; tried"));
+  EXPECT_THAT(fault_of(with("<limit lower=\"-3\" upper=\"3\"/>", "<limit effort=\"9\"/>")),
+              HasSubstr("robot.urdf:17: <limit>: neither lower nor upper; expected the range"));
+  EXPECT_EQ(fault_of(with("<limit lower=\"-3\" upper=\"3\"/>", "<limit lower=\"0\" upper=\"0\"/>")),
+            "");
+  EXPECT_EQ(fault_of(with("<limit lower=\"-1\" upper=\"1\"/>", "<limit effort=\"9\"/>")), "")
+      << "a joint that mimics another";
+  EXPECT_THAT(
+      fault_of(with("</robot>", "<link name=\"stray\"/></robot>")),
+      HasSubstr("2 links are no joint's child: \"base\", \"stray\"; expected one, the root"));
+  EXPECT_THAT(fault_of(with("<link name=\"flange\"/>",
+                            "<link name=\"flange\"><xacro:shape size=\"1\"/></link>")),
+              HasSubstr("robot.urdf:8: <xacro:shape>: a macro; expected an expanded file: `xacro"));
   EXPECT_THAT(fault_of(small_urdf, "<robot><disable_collisions link1=\"arm\"/></robot>"),
               HasSubstr("robot.srdf:1: <disable_collisions>: no attribute link2"));
+}
+
+TEST(Robots, WarnOfWhatSrdfDoesNotHave) {
+  const auto warnings_of = [](const std::string& srdf) {
+    testing::internal::CaptureStderr();
+    const Robot robot = read(small_urdf, srdf);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(warnings_of("<robot name=\"small\"><group name=\"all\"/></robot>"), "");
+  EXPECT_THAT(
+      warnings_of("<robot name=\"small\">\n<disable_collision link1=\"arm\" "
+                  "link2=\"finger\"/></robot>"),
+      HasSubstr("robot.srdf:2: warning: <disable_collision>: is left out: no element of SRDF "
+                "is called 'disable_collision'; did you mean disable_collisions?\n"));
+  EXPECT_THAT(
+      warnings_of("<robot name=\"large\"/>"),
+      HasSubstr("robot.srdf:1: warning: <robot>: of the robot \"large\"; expected \"small\""));
+  EXPECT_THAT(fault_of(small_urdf, small_urdf),
+              HasSubstr("robot.srdf:3: <link>: of URDF; expected SRDF"));
+  EXPECT_THAT(fault_of(small_urdf, "<robot><xacro:include filename=\"a\"/></robot>"),
+              HasSubstr("robot.srdf:1: <xacro:include>: a macro"));
+}
+
+TEST(Robots, RefuseMeshesThatAreNotRead) {
+  const TemporaryFolder folder;
+  folder.write("hand.dae", "<COLLADA/>");
+  const auto fault_with = [&](const std::string& name) {
+    const auto file = folder.write(
+        "robot.urdf", "<robot>\n<link name=\"hand\"><collision><geometry><mesh filename=\"" + name +
+                          "\"/></geometry></collision></link></robot>");
+    return folder.without_path(input_fault([&] { scene::read_robot(file); }));
+  };
+  EXPECT_THAT(fault_with("hand.dae"),
+              testing::AllOf(StartsWith("robot.urdf:2: <mesh>: filename: the format of"),
+                             HasSubstr("hand.dae\" is not read; expected .obj, .off, .stl or .ply. "
+                                       "Convert it to .obj or .stl")));
+  const std::string missing = fault_with("meshes/hand.stl");
+  EXPECT_THAT(missing, HasSubstr("\"meshes/hand.stl\" is not there; tried "));
+  EXPECT_THAT(missing, HasSubstr("Expected a mesh, by a path from the robot's file"));
+  EXPECT_THAT(fault_with("http://kit/hand.stl"),
+              HasSubstr("is no file; expected a path, file:// or package://"));
+  EXPECT_THAT(fault_with("$(find kit)/hand.stl"), HasSubstr("expected an expanded file: `xacro"));
+  EXPECT_THAT(fault_with("package://kit/hand.stl"), HasSubstr("Expected the key packages"));
 }
 
 TEST(Robots, FindMeshesInPackages) {
