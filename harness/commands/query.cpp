@@ -176,12 +176,13 @@ std::optional<std::size_t> oracle_of(const Questions& questions) {
   return std::nullopt;
 }
 
-// Where a verdict is not the exact one: how often, and where first.
+// Where an answer that counts has another verdict than the exact one: how often, and where first.
 std::string other_verdicts(const Questions& questions, std::size_t contestant, std::size_t oracle) {
   std::size_t count = 0, first = 0;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     const ShownAnswer shown = questions.shown(i, contestant), exact = questions.shown(i, oracle);
-    const bool are_answers = exact.status == Status::ok && shown.status != Status::unsupported;
+    const bool are_answers = exact.status == Status::ok &&
+                             (shown.status == Status::ok || shown.status == Status::not_reported);
     if (!are_answers || shown.verdict == exact.verdict) continue;
     if (count++ == 0) first = i;
   }

@@ -38,6 +38,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_rows_shown = 12;
 constexpr double frame_seconds = 10;
+constexpr std::size_t most_timed = 1000;  // the first configurations
 
 struct RobotOptions {
   std::string robot, scene, srdf, path, out, meshes = "surface";
@@ -177,17 +178,18 @@ std::string proposal(const scene::Robot& robot, const report::LinkContacts& foun
   return text + "</robot>\n";
 }
 
-// Of the configurations those that are timed are the first.
-constexpr std::string_view timed_text =
-    R"(# Written by `touchstone robot`: who says fastest whether configurations are free, and who is wrong.
+std::string timed_text() {
+  return fmt::format(
+      R"(# Written by `touchstone robot`: who says fastest whether configurations are free, and who is wrong.
 [[group]]
 kind = "configuration"
 scenes = ["scene.toml"]
 tasks = ["free"]
-queries = 1000
+queries = {}
 rounds = 6
-)";
-constexpr std::size_t most_timed = 1000;
+)",
+      most_timed);
+}
 
 // The folder of the measurements that `timed_file` asks for.
 fs::path times_folder(const fs::path& timed_file) { return timed_file.parent_path() / "times"; }
@@ -236,14 +238,14 @@ int print_times(const fs::path& file, std::size_t all) {
   return result.ours_wrong ? exit_measured_wrong : exit_done;
 }
 
+// Throws InputError for a file whose name ends otherwise.
 void expect_ending(const std::string& file, std::initializer_list<std::string_view> endings,
                    std::string_view expected) {
   const std::string ending = fs::path(file).extension().string();
   if (std::ranges::find(endings, ending) != endings.end()) return;
   throw base::InputError(
       file, 0,
-      fmt::format("found the ending '{}'; expected {}{}", base::printable(ending), expected,
-                  ending == ".xacro" ? ": xacro FILE > robot.urdf makes one" : ""));
+      fmt::format("found the ending '{}'; expected {}", base::printable(ending), expected));
 }
 
 int look_at(const RobotOptions& options) {
@@ -254,10 +256,13 @@ int look_at(const RobotOptions& options) {
   for (const std::string& file : {options.robot, options.scene, options.srdf, options.path}) {
     if (!file.empty()) base::check_kind(file, "a file of the robot");
   }
-  expect_ending(options.robot, {".urdf"}, "a robot (.urdf)");
+  expect_ending(options.robot, {".urdf"},
+                fs::path(options.robot).extension() == ".xacro"
+                    ? "a robot (.urdf): xacro FILE > robot.urdf makes one"
+                    : "a robot (.urdf)");
   if (!options.scene.empty() && !scene::is_yaml(options.scene)) {
     expect_ending(options.scene, {".toml", ".json"},
-                  "--scene: a scene (.toml, .json), or MoveIt's planning scene (.yaml)");
+                  "a scene (.toml, .json), or MoveIt's planning scene (.yaml)");
   }
   // Faults of the robot are told with its own lines.
   const scene::Robot robot = scene::read_robot(options.robot, options.srdf, packages_of(options));
@@ -332,8 +337,11 @@ int look_at(const RobotOptions& options) {
   files::write_text(scene_file, text);
   write_csv(pairs_file, found);
   files::write_text(srdf_file, proposal(robot, found, options.path.empty()));
-  files::write_text(timed_file, std::string(timed_text));
-  const int status = is_any_asked ? print_times(timed_file, all) : exit_done;
+  int status = exit_done;
+  if (is_any_asked) {
+    files::write_text(timed_file, timed_text());
+    status = print_times(timed_file, all);
+  }
   fmt::print("\nAll pairs that are asked, or that SRDF disables: {}\n", pairs_file.string());
   fmt::print("An SRDF file that leaves out joined links and what always{} touched: {}\n",
              options.path.empty() ? " or never" : "", srdf_file.string());

@@ -31,7 +31,7 @@ struct Graded {
 
 // Counts of queries.
 struct GradeCount {
-  std::int64_t not_asked = 0;  // what the algorithm does not take
+  std::int64_t not_asked = 0;  // Grade::not_asked
   std::int64_t cases = 0;      // that were asked
   std::int64_t contacts = 0;   // of these, by the exact answer
   std::int64_t unresolved = 0, right = 0, near = 0, missed = 0, false_hits = 0, inexact = 0;

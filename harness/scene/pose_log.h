@@ -18,7 +18,8 @@ namespace touchstone::scene {
 // file and line.
 void read_pose_log(const std::filesystem::path& file, Scene& scene);
 
-// Writes such a file as matrices, row by row.
+// Writes such a file as matrices, row by row: frames from 0, each with numbers of bodies; metres. Throws InputError where
+// it cannot be written.
 class PoseMatrixWriter {
  public:
   explicit PoseMatrixWriter(const std::filesystem::path& file);

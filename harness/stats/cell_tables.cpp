@@ -147,11 +147,15 @@ std::string faults_text(const std::vector<CellTimeRow>& rows) {
     std::map<std::string, int> ends;  // by status: cells
   };
   std::map<std::string, Faults> of_algorithm;
+  bool is_any_right = false, is_any_wrong = false;
   for (const CellTimeRow& row : rows) {
     Faults& faults = of_algorithm[row.grade.algorithm];
-    if (row.grade.status != "ok" && row.grade.status != "unsupported" &&
-        row.grade.status != "wrong")
+    if (row.grade.status == "wrong") {
+      ++faults.ends["another answer in a sample than the graded one"];
+    } else if (row.grade.status != "ok" && row.grade.status != "unsupported") {
       ++faults.ends[row.grade.status];
+    }
+    is_any_right |= row.grade.status == "ok" && row.grade.is_right();
     if (row.grade.silent() == 0) continue;
     ++faults.cells;
     faults.graded += row.grade.graded;
@@ -161,7 +165,6 @@ std::string faults_text(const std::vector<CellTimeRow>& rows) {
   }
   base::Table table({"wrong answers of", "cells", "missed", "false hits", "inexact", "of"});
   std::string text;
-  bool is_any_wrong = false;
   for (const auto& [name, faults] : of_algorithm) {
     for (const auto& [status, cells] : faults.ends) {
       text += fmt::format("{}: {} in {} cell{}\n", name, status, cells, cells == 1 ? "" : "s");
@@ -172,7 +175,8 @@ std::string faults_text(const std::vector<CellTimeRow>& rows) {
                std::to_string(faults.false_hits), std::to_string(faults.inexact),
                std::to_string(faults.graded)});
   }
-  return "\n" + (is_any_wrong ? table.text(base::page_width()) : "No answer is wrong.\n") + text;
+  if (is_any_wrong) return "\n" + table.text(base::page_width()) + text;
+  return "\n" + (text.empty() && is_any_right ? "No answer is wrong.\n" : text);
 }
 
 // The facts of the folder's machine of these names, as a list in Markdown.

@@ -56,7 +56,8 @@ struct PoseReach {
   double error, furthest;
 };
 
-// Spreads poses[0], poses[stride], ..., of which there are `count`, over as many lanes; lanes behind them repeat the last.
+// Writes poses[0], poses[stride], ..., of which there are `count`, 1 to 16, into a lane each; lanes behind them repeat the
+// last. Numbers are finite; beyond the range of floats they become infinite.
 PoseReach spread_poses(const Pose* poses, std::size_t stride, std::size_t count, LanePose& lanes);
 
 // Where points of a link are: `centres` in its frame.

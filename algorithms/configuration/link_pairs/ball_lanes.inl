@@ -90,7 +90,7 @@ TOUCHSTONE_TARGET void place(const LanePose& link, std::span<const std::array<fl
   }
 }
 
-// By how much a product of two columns is not what it is in a rotation.
+// How far the product of two columns is from `expected`, its value in a rotation.
 TOUCHSTONE_TARGET inline Simd<double>::Vector column_error(const Simd<double>::Vector* a,
                                                            const Simd<double>::Vector* b,
                                                            double expected) {

@@ -117,12 +117,12 @@ class BoundModel {
   double reach_ = 0;  // no part reaches further from its link, or the origin (metres)
 
   struct Known {
-    std::uint64_t since = 0;  // the number of the configuration that was asked
+    std::uint64_t since = 0;  // the number of the configuration that was asked; 0: none was
     Outcome outcome;
   };
   std::vector<Pose> placed_links_;          // of the configuration before
   std::vector<std::uint64_t> still_since_;  // by link
-  // Of pairs that stood still when they were asked, by tasks.
+  // By pair: the outcomes of pairs that stood still when they were asked.
   std::unordered_map<std::uint64_t, Known> known_of_contact_, known_of_distance_;
 
   // In this configuration, those whose number is `now_`; the world's have the greatest number.

@@ -19,7 +19,8 @@
 //          asked.
 // Fails:   unknown where the narrow phase or the concave phase is. Which pair is named depends on what was asked
 //          before.
-// Cost:    a few dozen operations for each pair that bounds decide, and that of the phases for others.
+// Cost:    a few dozen operations for each pair that bounds decide, and that of the phases for others. The same
+//          configuration twice in a row costs no phase the second time.
 #include "algorithms/configuration/link_pairs/lane_search.h"
 #include "algorithms/configuration/link_pairs/pair_search.h"
 #include "algorithms/configuration/link_pairs/world_tree.h"

@@ -80,7 +80,9 @@ class WorldTree final : public PairSearch {
   // The obstacles whose boxes are no further from the centre than `reach`, and more of their leaves.
   void find_near(const Vec3d& centre, double reach) {
     near_.clear();
-    const SearchBox ball = search_box(centre, centre, reach, Pose{}, 0, reach_of_tree_);
+    // Squares of floats may not underflow.
+    const SearchBox ball =
+        search_box(centre, centre, std::max(reach, 1e-18), Pose{}, 0, reach_of_tree_);
     search_.run(
         tree_, ball,
         [](void* context, std::uint32_t leaf) {

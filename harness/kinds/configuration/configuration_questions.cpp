@@ -86,7 +86,7 @@ class ConfigurationQuestions final : public AnswersOf<ConfigurationEntry, Config
   std::size_t size() const override { return size_; }
   std::string label(std::size_t i) const override {
     return task_ == ConfigurationTask::motion
-               ? fmt::format("motion of {} configurations; between them nothing is asked", steps_)
+               ? fmt::format("motion of {} configurations, asked at these alone", steps_)
                : fmt::format("configuration {}", i);
   }
   std::vector<files::NamedFile> inputs() const override { return inputs_; }

@@ -376,19 +376,24 @@ TEST(Configurations, AgreeWithEveryPairByItself) {
   }
 }
 
-// A half-space below the robot, which reaches it now and then.
 // A base that stands on a table, or beside it, and a hand, each at one of three places: often where they were before,
-// or before that. One query answers for all configurations, and as a new one for each.
+// or before that. One query answers all configurations as the exact one does.
 TEST(Configurations, WhatIsKnownOfPairsHoldsUntilTheyMove) {
   ConfigurationModel model;
   model.links = 2;
   model.parts = {{box({1, 1, 0.5}), 0, {}},
                  {box({0.2, 0.3, 0.4}), 1, {}},
-                 {box({2, 2, 0.25}), ModelPart::world, at(0, 0, -0.25)}};
+                 {box({2, 2, 0.25}), ModelPart::world, at(0, 0, -0.25)},
+                 {{std::make_shared<const TriangleMesh>(TriangleMesh{
+                       {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}}),
+                   {}},
+                  ModelPart::world,
+                  at(0, 0, -0.001)}};
   const std::vector<Pose> bases = {at(0, 0, 0.5), at(0, 0, std::nextafter(0.5, 1)), at(9, 0, 0.2)},
                           hands = {at(0, 0, 1.4), at(0, 0, 1.5), at(1.2, 0, 0.4)};
   for (const auto& pairs :
-       {std::vector<IndexPair>{{0, 1}, {0, 2}, {1, 2}}, std::vector<IndexPair>{{0, 1}, {1, 2}}}) {
+       {std::vector<IndexPair>{{0, 1}, {0, 2}, {0, 3}, {1, 2}},
+        std::vector<IndexPair>{{0, 1}, {0, 3}, {1, 2}}, std::vector<IndexPair>{{0, 1}, {1, 2}}}) {
     model.pairs = pairs;
     Random random(7);
     std::vector<Pose> poses;
@@ -427,6 +432,7 @@ TEST(Configurations, WhatIsKnownOfPairsHoldsUntilTheyMove) {
   }
 }
 
+// A half-space below the robot, which reaches it now and then.
 TEST(Configurations, AGroundIsMetByWhatReachesIt) {
   Random random(2);
   int contacts = 0, frees = 0;

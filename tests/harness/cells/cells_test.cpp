@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -22,6 +24,7 @@ namespace touchstone {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* few_rounds = "rounds = 6\nsample_seconds = 1e-5\nalgorithms = \"ours\"\n";
 
@@ -135,6 +138,7 @@ TEST(Cells, OfAContestantThatTakesNotAllQueries) {
   auto request = request_of(folder, "kind = \"points\"\nmeshes = [\"torus-200\"]\nqueries = 64\n");
   const auto contestant = [](const char* name, kinds::Grade of_second) {
     return kinds::TimedContestant{.name = name,
+                                  .origin = Origin::peer,
                                   .answer = [] {},
                                   .grade =
                                       [=] {
@@ -153,13 +157,49 @@ TEST(Cells, OfAContestantThatTakesNotAllQueries) {
                                           contestant("one", kinds::Grade::not_asked)}};
                     }}};
   const Ran ran = run(request, folder.path() / "out");
-  EXPECT_FALSE(ran.result.ours_wrong);
+  EXPECT_THAT(stats::write_cell_tables(folder.path() / "out", "some", folder.path() / "out"),
+              HasSubstr("No answer is wrong.\n"));
   ASSERT_EQ(ran.times.size(), 2U);
   for (const stats::CellTimeRow& row : ran.times) {
     const bool takes_all = row.grade.algorithm == "all";
     EXPECT_EQ(row.grade.status, takes_all ? "ok" : "unsupported");
     EXPECT_EQ(row.samples > 0, takes_all);
   }
+}
+
+// A cell each: who missed a contact, who crashed, and nobody.
+TEST(Cells, OfWhoIsWrongOrCrashes) {
+  const TemporaryFolder folder;
+  auto request = request_of(folder, "kind = \"points\"\nmeshes = [\"torus-200\"]\nqueries = 64\n");
+  const auto contestant = [](const char* name, kinds::Grade grade, bool crashes) {
+    return kinds::TimedContestant{.name = name,
+                                  .origin = Origin::peer,
+                                  .answer =
+                                      [=] {
+                                        if (crashes) std::abort();
+                                      },
+                                  .grade =
+                                      [=] {
+                                        kinds::TimedGrade sum;
+                                        sum.add({grade, true}, 0);
+                                        return sum;
+                                      },
+                                  .hash = [] { return std::uint64_t{1}; }};
+  };
+  request.cells = {{.group = "some", .name = "one", .make = [=] {
+                      return kinds::TimedSet{
+                          .queries = 1,
+                          .graded = 1,
+                          .contestants = {contestant("right", kinds::Grade::right, false),
+                                          contestant("blind", kinds::Grade::missed, false),
+                                          contestant("frail", kinds::Grade::right, true)}};
+                    }}};
+  run(request, folder.path() / "out");
+  const std::string text =
+      stats::write_cell_tables(folder.path() / "out", "some", folder.path() / "out");
+  EXPECT_THAT(text, testing::ContainsRegex("\nblind +1 +1 +0 +0 +1\n"));
+  EXPECT_THAT(text, HasSubstr("frail: crashed in 1 cell\n"));
+  EXPECT_THAT(text, Not(HasSubstr("No answer is wrong")));
 }
 
 // Casts miss nothing, substeps do; answers do not depend on the threads.

@@ -154,7 +154,7 @@ TEST_F(RobotCommand, RefusesWhatItCannotRead) {
   folder_.write("world.toml", "[[body]]\nshape = {type = \"sphere\", radius = 1}\n");
   expect_refusal("robot " + path("world.toml"), "world.toml: found the ending '.toml'", folder_);
   expect_refusal("robot " + path("rail.urdf") + " --scene " + path("rail.urdf"),
-                 "expected --scene: a scene (.toml, .json)", folder_);
+                 "rail.urdf: found the ending '.urdf'; expected a scene (.toml, .json)", folder_);
   expect_refusal("robot " + path("rail.urdf") + " --scene " + path("none.toml"), "none.toml",
                  folder_);
   expect_refusal("robot " + path("rail.urdf") + " --srdf " + path("none.srdf"), "none.srdf",

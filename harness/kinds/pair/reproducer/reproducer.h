@@ -24,8 +24,8 @@ std::string reproducer_file(std::string_view algorithm);
 // asks for is off by more than usual_depth_error of the pair's size, as in the summary of a run. In Python and JavaScript
 // the limit is script_error, which is also how near to contact a side does not count. `file` is its name, for
 // the line that compiles it; its ending says which language, where there are two. The cases are rounded to the library's
-// numbers first. Cases with shapes that the library does not take are left out, with a comment. Throws InputError for an algorithm that has no such form, or not in that
-// language, and if no case is left.
+// numbers first. Cases with shapes that the library does not take are left out, with a comment. Throws InputError for an
+// algorithm that has no such form, or not in that language, and if no case is left.
 std::string reproducer(std::string_view algorithm, std::span<const files::Case> cases, Task task,
                        const std::filesystem::path& file);
 
