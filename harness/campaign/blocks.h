@@ -44,6 +44,7 @@ struct RunContext {
   record::Findings* findings = nullptr;
   std::span<const Block> blocks = {};      // all blocks of the campaign, by their numbers
   const BroadPhaseEntry* limit = nullptr;  // the lower bound, if the campaign measures it
+  bool counts_allocations = true;          // in passes of their own
 
   // Returns a row with the columns that the block decides.
   record::RawRow row(std::size_t frame) const;

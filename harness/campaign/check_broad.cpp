@@ -187,7 +187,7 @@ CheckedBroad check_broad(const RunContext& context, const measure::BlockInput& i
     seconds += frame_seconds(answer.reply);
   }
   std::vector<measure::BroadSampler::FrameAllocations> allocations(count);
-  if (to_the_end && seconds < longest_frame_to_count) {
+  if (context.counts_allocations && to_the_end && seconds < longest_frame_to_count) {
     allocations = count_allocations(input, entry, group.rebuild, limits);
   }
   for (std::size_t frame = 0; frame < count; ++frame) {

@@ -130,7 +130,8 @@ void NarrowCheck::run(const Batch& batch, const measure::NarrowChoice& choice) {
   double seconds = 0;
   for (const NarrowAnswer& answer : answers.span()) seconds += answer.seconds;
   std::vector<measure::Allocations> allocations(pieces.size());
-  if (is_timed(choice.info()) && report.failures.empty() && seconds < longest_batch_to_count) {
+  if (context_->counts_allocations && is_timed(choice.info()) && report.failures.empty() &&
+      seconds < longest_batch_to_count) {
     allocations = count_allocations(pieces, choice, limits);
   }
   auto failure = report.failures.begin();

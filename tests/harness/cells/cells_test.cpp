@@ -26,11 +26,11 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* few_rounds = "rounds = 6\nsample_seconds = 1e-5\nalgorithms = \"ours\"\n";
-
-cells::CellRequest request_of(const TemporaryFolder& folder, const std::string& keys) {
-  return cells::read_cells(
-      folder.write("cells.toml", "name = \"small\"\n[[group]]\n" + keys + few_rounds));
+cells::CellRequest request_of(const TemporaryFolder& folder, const std::string& keys,
+                              const std::string& algorithms = "\"ours\"") {
+  return cells::read_cells(folder.write(
+      "cells.toml", "name = \"small\"\n[[group]]\n" + keys +
+                        "rounds = 6\nsample_seconds = 1e-5\nalgorithms = " + algorithms + "\n"));
 }
 
 struct Ran {
@@ -250,7 +250,8 @@ TEST(Cells, OfFramesOfBroadPhases) {
   const auto request = request_of(
       folder,
       "kind = \"frames\"\nscenes = [\"resting.toml\", \"churn.toml\"]\nmoving = [0.1, 0.5]\n"
-      "frames = 5\nthreads = [1, 2]\n");
+      "frames = 5\nthreads = [1, 2]\n",
+      R"(["naive", "sweep-and-prune", "packed-rtree", "verlet-list", "dynamic-bvh", "auto"])");
   ASSERT_EQ(request.cells.size(), 2U * 2 * 2 * 4);
   const Ran ran = run(request, folder.path() / "out");
   expect_sound(ran, request.cells.size());

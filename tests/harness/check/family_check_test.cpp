@@ -207,7 +207,7 @@ TEST(CaseFamilies, TheExactAnswersAgreeInEveryForm) {
   for (const kinds::Family* family : kinds::case_families()) {
     if (family->one_in > 4) continue;                   // enclosures, which take long
     if (family->kind == &kinds::pair_kind()) continue;  // its regimes have a checker of their own
-    const auto batch = family->kind->draw(*family, {3, 0, static_cast<std::size_t>(drawn(20, 6))});
+    const auto batch = family->kind->draw(*family, {3, 0, static_cast<std::size_t>(drawn(8, 6))});
     for (const kinds::Contestant& exact : family->kind->contestants({"exact"}, scalars)) {
       for (const kinds::CaseForm form : kinds::all_case_forms) {
         FamilyCount count;

@@ -46,8 +46,9 @@ TEST_F(RunCommand, RunsACampaignAndPrintsItsTables) {
 
 // With few boxes a later group may measure what an earlier one did. If it measures anything else, it stays.
 TEST_F(RunCommand, LeavesOutOfAFirstLookWhatIsMeasuredAlready) {
-  const std::string few = "[[group]]\nscenes = 's.toml'\nnarrow = 'none'\ncounts = 2000\n";
-  const std::string many = "[[group]]\nscenes = 's.toml'\nnarrow = 'none'\ncounts = 5000\n";
+  const std::string group =
+      "[[group]]\nscenes = 's.toml'\nbroad = ['naive', 'uniform-grid']\nnarrow = 'none'\n";
+  const std::string few = group + "counts = 2000\n", many = group + "counts = 5000\n";
   const std::string naive = "exclude = [{broad = 'naive'}]\n";
   const auto blocks = [&](const std::string& groups, const std::string& option) {
     folder_.write("groups.toml", groups);
