@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "algorithms/oracle/numbers/dyadic.h"
@@ -147,6 +148,10 @@ bool GridCore::holds(const std::array<std::int64_t, 3>& point) const {
   }
   return false;
 }
+
+static_assert(std::numeric_limits<long double>::digits >= 64,
+              "exact answers about curved bodies need a long double of at least 64 bits; "
+              "results/other_machines.md says which machines have it");
 
 std::uint32_t GridCore::add_point(const Vec3l& local_direction, bool at_end) {
   Vec3l extents;
