@@ -170,7 +170,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void find_nearest(const BoxProducts<Scalar>&
 // Writes the distances of lanes that are apart; returns the lanes for which the plane and the points
 // agree. It is not inlined, so that both loops share one copy.
 template <class Scalar>
-TOUCHSTONE_TARGET [[gnu::noinline]] unsigned write_distances(const PairTable<Scalar>& table,
+[[gnu::noinline]] TOUCHSTONE_TARGET unsigned write_distances(const PairTable<Scalar>& table,
                                                              std::size_t begin,
                                                              const BoxColumns<Scalar>& boxes,
                                                              const BoxProducts<Scalar>& seen,

@@ -155,7 +155,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE void judge(const BoxProducts<Scalar>& seen, 
 // Does the same, and is not inlined: the loops of distance and depth, where it is a small part of the
 // work, share one copy.
 template <class Scalar>
-TOUCHSTONE_TARGET [[gnu::noinline]] void judge_apart(const BoxProducts<Scalar>& seen,
+[[gnu::noinline]] TOUCHSTONE_TARGET void judge_apart(const BoxProducts<Scalar>& seen,
                                                      Signs& signs) {
   judge<Scalar>(seen, signs);
 }

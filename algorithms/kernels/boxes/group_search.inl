@@ -7,7 +7,7 @@
 // `is_first`, and then the near boxes that overlap any of the group's; returns how many hits there
 // then are. No branch depends on what overlaps. It is a function of its own so that the group stays
 // in registers.
-TOUCHSTONE_TARGET [[gnu::noinline]] std::size_t hit_group(const Columns& boxes, IndexRange group,
+[[gnu::noinline]] TOUCHSTONE_TARGET std::size_t hit_group(const Columns& boxes, IndexRange group,
                                                           bool is_first, IndexRange near,
                                                           GroupLists& lists, std::size_t hits) {
   const Columns columns = boxes;
