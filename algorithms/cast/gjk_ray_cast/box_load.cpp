@@ -1,6 +1,5 @@
 // Part of gjk-ray-cast-lanes: selects the level of vector instructions at which pairs of boxes are loaded.
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

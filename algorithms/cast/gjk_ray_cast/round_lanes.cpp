@@ -2,7 +2,6 @@
 #include "algorithms/cast/gjk_ray_cast/round_lanes.h"
 
 #include <algorithm>
-#include <bit>
 #include <concepts>
 
 #include "algorithms/core/isa.h"

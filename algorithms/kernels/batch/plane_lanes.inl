@@ -17,8 +17,8 @@ using Bits __attribute__((vector_size(8 * Simd<double>::width))) = std::int64_t;
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Bits entry_bits(const Vector3<double> columns[3]) {
   Bits bits{};
   for (int k = 0; k < 3; ++k) {
-    bits |= std::bit_cast<Bits>(columns[k].x) | std::bit_cast<Bits>(columns[k].y) |
-            std::bit_cast<Bits>(columns[k].z);
+    bits |=
+        bit_cast<Bits>(columns[k].x) | bit_cast<Bits>(columns[k].y) | bit_cast<Bits>(columns[k].z);
   }
   return bits;
 }
@@ -118,11 +118,11 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename WithIntegers<Lanes>::Integers bits_
     const typename FloatLanes<Lanes>::Vector& x, std::uint32_t number) {
   using Integers = typename WithIntegers<Lanes>::Integers;
   if constexpr (Lanes::width == 8) {
-    const __m512i bits = _mm512_cvtepu32_epi64(std::bit_cast<__m256i>(x));
-    return std::bit_cast<Integers>(_mm512_mul_epu32(bits, _mm512_set1_epi64(number)));
+    const __m512i bits = _mm512_cvtepu32_epi64(bit_cast<__m256i>(x));
+    return bit_cast<Integers>(_mm512_mul_epu32(bits, _mm512_set1_epi64(number)));
   } else {
-    const __m256i bits = _mm256_cvtepu32_epi64(std::bit_cast<__m128i>(x));
-    return std::bit_cast<Integers>(_mm256_mul_epu32(bits, _mm256_set1_epi64x(number)));
+    const __m256i bits = _mm256_cvtepu32_epi64(bit_cast<__m128i>(x));
+    return bit_cast<Integers>(_mm256_mul_epu32(bits, _mm256_set1_epi64x(number)));
   }
 }
 
@@ -140,8 +140,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE typename Lanes::Mask own_lanes(
   // The bits that differ, which are less than 34, are the last places of a number from one to two.
   const Integers off = sum ^ bits_times<Lanes>(words[CarriedPlane::factors.size()], 1);
   const typename Lanes::Vector one = Lanes::broadcast(1);
-  return Lanes::less_equal(
-      std::bit_cast<typename Lanes::Vector>(off | std::bit_cast<Integers>(one)), one);
+  return Lanes::less_equal(bit_cast<typename Lanes::Vector>(off | bit_cast<Integers>(one)), one);
 }
 
 // Writes where to look for a plane between the pairs from `begin` on.
@@ -205,7 +204,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE unsigned parted_lanes(const NumbersOfPairs& 
   const auto far =
       both(Lanes::less(zero, gap), Lanes::less((2 * (1 + rounding)) * bend, gap * gap));
   // These bits together make a number below two if each entry is.
-  const Vector entries = std::bit_cast<Vector>(entry_bits(of_a) | entry_bits(of_b));
+  const Vector entries = bit_cast<Vector>(entry_bits(of_a) | entry_bits(of_b));
   const auto sound =
       both(Lanes::less(excess, one), Lanes::less(Lanes::abs(entries), Lanes::broadcast(2)));
   const unsigned parted = Lanes::to_bits(both(both(far, sound), own_lanes<Lanes>(words)));

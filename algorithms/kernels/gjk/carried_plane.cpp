@@ -3,7 +3,6 @@
 #include "algorithms/kernels/gjk/carried_plane.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>

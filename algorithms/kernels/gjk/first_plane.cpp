@@ -1,7 +1,6 @@
 // Selects the level of vector instructions of first_plane.inl.
 #include "algorithms/kernels/gjk/first_plane.h"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>

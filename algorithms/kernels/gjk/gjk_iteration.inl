@@ -235,7 +235,7 @@ TOUCHSTONE_TARGET void fast_gjk_at(SupportPair<Scalar>& pair, const FastGjkGoal&
                                    FastGjkResult<Scalar>& found) {
   using Vector = Quad<Scalar>;
   // The square of the least length; shorter vectors have lost their digits, or nearly so.
-  constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
+  constexpr Scalar shortest = sizeof(Scalar) == 8 ? static_cast<Scalar>(1e-200) : Scalar{1e-24f};
   // A point that is already in the simplex is as far along the direction as the others, up to
   // rounding.
   constexpr Scalar as_far = 1024 * std::numeric_limits<Scalar>::epsilon();

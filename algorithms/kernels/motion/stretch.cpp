@@ -2,7 +2,6 @@
 #include "algorithms/kernels/motion/stretch.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

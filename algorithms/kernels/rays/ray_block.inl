@@ -148,7 +148,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Narrow rounded_at(const RayBlock::Each<doubl
   using Rounded = float __attribute__((vector_size(sizeof(Narrow))));
   Loaded x;
   std::memcpy(&x, &from[at], sizeof x);
-  return std::bit_cast<Narrow>(__builtin_convertvector(x, Rounded));
+  return bit_cast<Narrow>(__builtin_convertvector(x, Rounded));
 }
 // Floats on that side of x to which `outward` (1 or -1) points; off by less than two of their digits.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Narrow widened_at(const RayBlock::Each<double>& from,

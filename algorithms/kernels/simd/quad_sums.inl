@@ -15,11 +15,10 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> numbers_at(const double* from) 
 // Zero in place of the fourth number.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> three_of(const Quad<double>& q) {
   const QuadBits mask{-1, -1, -1, 0};
-  return std::bit_cast<Quad<double>>(std::bit_cast<QuadBits>(q) & mask);
+  return bit_cast<Quad<double>>(bit_cast<QuadBits>(q) & mask);
 }
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> magnitudes(const Quad<double>& q) {
-  return std::bit_cast<Quad<double>>(std::bit_cast<QuadBits>(q) &
-                                     ~std::bit_cast<QuadBits>(-Quad<double>{}));
+  return bit_cast<Quad<double>>(bit_cast<QuadBits>(q) & ~bit_cast<QuadBits>(-Quad<double>{}));
 }
 
 // Sums of neighbours: two of x, then two of y, in the order x, y, x, y.
@@ -59,8 +58,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> seen_from(const QuadColumns& co
 // Whether all entries of both matrices are below two in magnitude: none has the highest bit of a
 // double's exponent.
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE bool are_below_two(const QuadColumns& a, const QuadColumns& b) {
-  const QuadBits bits = std::bit_cast<QuadBits>(a.x) | std::bit_cast<QuadBits>(a.y) |
-                        std::bit_cast<QuadBits>(a.z) | std::bit_cast<QuadBits>(b.x) |
-                        std::bit_cast<QuadBits>(b.y) | std::bit_cast<QuadBits>(b.z);
+  const QuadBits bits = bit_cast<QuadBits>(a.x) | bit_cast<QuadBits>(a.y) |
+                        bit_cast<QuadBits>(a.z) | bit_cast<QuadBits>(b.x) |
+                        bit_cast<QuadBits>(b.y) | bit_cast<QuadBits>(b.z);
   return ((bits[0] | bits[1] | bits[2]) >> 62 & 1) == 0;
 }

@@ -45,15 +45,15 @@ struct MaskBits<Mask> {
 template <class Mask>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Mask both(Mask a, Mask b) {
   using Bits = typename MaskBits<Mask>::Type;
-  return std::bit_cast<Mask>(static_cast<Bits>(std::bit_cast<Bits>(a) & std::bit_cast<Bits>(b)));
+  return bit_cast<Mask>(static_cast<Bits>(bit_cast<Bits>(a) & bit_cast<Bits>(b)));
 }
 template <class Mask>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Mask either(Mask a, Mask b) {
   using Bits = typename MaskBits<Mask>::Type;
-  return std::bit_cast<Mask>(static_cast<Bits>(std::bit_cast<Bits>(a) | std::bit_cast<Bits>(b)));
+  return bit_cast<Mask>(static_cast<Bits>(bit_cast<Bits>(a) | bit_cast<Bits>(b)));
 }
 template <class Mask>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Mask without(Mask a, Mask b) {
   using Bits = typename MaskBits<Mask>::Type;
-  return std::bit_cast<Mask>(static_cast<Bits>(std::bit_cast<Bits>(a) & ~std::bit_cast<Bits>(b)));
+  return bit_cast<Mask>(static_cast<Bits>(bit_cast<Bits>(a) & ~bit_cast<Bits>(b)));
 }

@@ -17,7 +17,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector load_doubles(const float* from) {
   using Wide = double __attribute__((vector_size(Lanes::width * sizeof(double))));
   Narrow x;
   __builtin_memcpy(&x, from, sizeof x);
-  return std::bit_cast<Vector>(__builtin_convertvector(x, Wide));
+  return bit_cast<Vector>(__builtin_convertvector(x, Wide));
 }
 template <class Block>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Points points_at(const Block& block, std::size_t corner,

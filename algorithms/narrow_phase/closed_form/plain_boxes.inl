@@ -22,7 +22,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector all_of(const Vector& x) {
 template <class Vector>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector absolute(const Vector& x) {
   using Bits = decltype(x < x);
-  return std::bit_cast<Vector>(std::bit_cast<Bits>(x) & ~std::bit_cast<Bits>(-Vector{}));
+  return bit_cast<Vector>(bit_cast<Bits>(x) & ~bit_cast<Bits>(-Vector{}));
 }
 template <class Vector>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Vector greater(const Vector& x, const Vector& y) {

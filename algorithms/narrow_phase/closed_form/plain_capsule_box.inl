@@ -11,8 +11,7 @@ struct Eight {
 template <class Lanes>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Eight<Lanes> eight_of(const Quad<double>& first,
                                                           const Quad<double>& second) {
-  return std::bit_cast<Eight<Lanes>>(
-      __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7));
+  return bit_cast<Eight<Lanes>>(__builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7));
 }
 
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> greater(const Quad<double>& x,
@@ -24,7 +23,7 @@ TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<double> greater_half(const Eight<Lanes>
   struct Two {
     Quad<double> first, second;
   };
-  const auto [first, second] = std::bit_cast<Two>(x);
+  const auto [first, second] = bit_cast<Two>(x);
   return greater(first, second);
 }
 
