@@ -13,7 +13,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t block_size = 4096;
+constexpr std::size_t bodies_per_block = 4096;
 
 // Each cell number with two zeros between its bits. A Morton code interleaves three of them
 // (Morton, "A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing", 1966).
@@ -86,7 +86,7 @@ void OctreeOrder::sort(Executor& executor, std::span<const Aabb> boxes,
   const BoxSample sample = sample_boxes(boxes, ids);
   const double wanted = 2 * static_cast<double>(ids.size()) * clustering_of(boxes, ids, sample);
   const Cells cells = make_cells(sample, wanted);
-  for_each_block(executor, ids.size(), block_size,
+  for_each_block(executor, ids.size(), bodies_per_block,
                  [&](std::size_t, std::size_t first, std::size_t last) {
                    for (std::size_t i = first; i < last; ++i) {
                      const std::uint64_t key = key_of(boxes[ids[i]], cells, true);

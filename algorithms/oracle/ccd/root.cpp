@@ -113,12 +113,12 @@ template <int most>
 int Root<most>::sign_of(const Polynomial<most>& p) {
   if (p.is_zero()) return 0;
   // The divisor costs as much as some refinements.
-  constexpr int narrow_enough = 40;
+  constexpr int refined_enough = 40;
   bool is_known_to_differ = false;
   for (;;) {
     if (cell_.is_point) return sign_at(p, cell_);
     if (const int sign = restricted(p, cell_).sign(); sign != 0) return sign;
-    if (!is_known_to_differ && cell_.power >= narrow_enough) {
+    if (!is_known_to_differ && cell_.power >= refined_enough) {
       if (is_root_of(p)) return 0;
       is_known_to_differ = true;
     }

@@ -115,7 +115,7 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
              0.5 * h * h * (closing_change - h * third / 3);
     };
     constexpr int most_tries = 3;
-    constexpr double inward = 1.1;
+    constexpr double overstep = 1.1;
     const double least = 0.25 * now / -rate;  // less is left to the surer bound
     double h = std::min({furthest, std::sqrt(2 * now / std::max(bend, 1e-300)), root_of(change)});
     for (int k = 0; k < most_tries && h > least; ++k) {
@@ -124,7 +124,7 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
         free = h;
         break;
       }
-      h -= inward * here / std::min(rate - change * h, 0.1 * rate);
+      h -= overstep * here / std::min(rate - change * h, 0.1 * rate);
     }
   }
   if (!(free > 0)) {
@@ -136,10 +136,10 @@ FreeUntil longest_step(const RelativeMotion& motion, SupportPair<double>& pair,
     const double at_end = gap(end);
     // Where the chord from an open end is zero, the gap is open by concavity; a little less makes up
     // for the rounding of the chord.
-    constexpr double inward = 1 - 1e-12;
-    free = at_end > 0 ? end : end * now / (now - at_end) * inward;
+    constexpr double safety = 1 - 1e-12;
+    free = at_end > 0 ? end : end * now / (now - at_end) * safety;
     if (const double here = at_end > 0 ? 0 : gap(free); here > 0.02 * now) {
-      free += (end - free) * here / (here - at_end) * inward;
+      free += (end - free) * here / (here - at_end) * safety;
     }
   }
   if (free >= left) return {1, true};
