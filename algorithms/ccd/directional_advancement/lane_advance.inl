@@ -210,7 +210,7 @@ struct LaneFeed {
 
 // Three coordinates, and a fourth that is 0.
 using Row = simd::Quad<double>;
-using Rows = simd::QuadLanes<double>;
+using Rows = QuadLanes<double>;
 
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Row row_of(const Vec3d& v) { return Row{v[0], v[1], v[2], 0}; }
 

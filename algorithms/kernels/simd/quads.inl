@@ -1,16 +1,6 @@
 // Quads, and vectors of three dimensions, with which every loop over vector.h begins. vector.h
 // includes this file once for each level of vector instructions.
 
-// std::bit_cast has no attribute of a level, and clang lets no wide vector out of such a function.
-#if defined(__clang__)
-template <class To, class From>
-TOUCHSTONE_TARGET TOUCHSTONE_INLINE To bit_cast(const From& from) {
-  return __builtin_bit_cast(To, from);
-}
-#else
-using std::bit_cast;
-#endif
-
 template <class Scalar>
 TOUCHSTONE_TARGET TOUCHSTONE_INLINE Quad<Scalar> convert(const Quad<double>& q) {
   return __builtin_convertvector(q, Quad<Scalar>);

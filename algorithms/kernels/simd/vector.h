@@ -61,101 +61,10 @@ inline float reduce_max4(Floats4 x) {
   return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 
-// Four lanes in the compiler's own vector types.
-template <class Scalar>
-struct QuadLanes {
-  static constexpr std::size_t width = 4;
-  using Vector = Quad<Scalar>;
-  using Integer = std::conditional_t<sizeof(Scalar) == 4, std::int32_t, std::int64_t>;
-  using Mask =
-      std::conditional_t<sizeof(Scalar) == 4, std::int32_t __attribute__((vector_size(16))),
-                         std::int64_t __attribute__((vector_size(32)))>;
-
-  static TOUCHSTONE_INLINE Vector load(const Scalar* from) {
-    Vector x;
-    std::memcpy(&x, from, sizeof x);
-    return x;
-  }
-  static TOUCHSTONE_INLINE void store(Scalar* to, Vector x) { std::memcpy(to, &x, sizeof x); }
-  static TOUCHSTONE_INLINE Vector broadcast(Scalar x) { return Vector{x, x, x, x}; }
-  static TOUCHSTONE_INLINE Mask less(Vector a, Vector b) { return a < b; }
-  static TOUCHSTONE_INLINE Mask less_equal(Vector a, Vector b) { return a <= b; }
-  static TOUCHSTONE_INLINE Mask less_equal(Mask within, Vector a, Vector b) {
-    return within & (a <= b);
-  }
-  static TOUCHSTONE_INLINE Vector select(Mask mask, Vector a, Vector b) { return mask ? a : b; }
-  static TOUCHSTONE_INLINE Vector abs(Vector x) {
-    const Mask bits = std::bit_cast<Mask>(x) & ~(Mask{} + std::numeric_limits<Integer>::min());
-    return std::bit_cast<Vector>(bits);
-  }
-  static TOUCHSTONE_INLINE Vector max(Vector a, Vector b) { return a > b ? a : b; }
-  static TOUCHSTONE_INLINE Vector min(Vector a, Vector b) { return a < b ? a : b; }
-  static TOUCHSTONE_INLINE Vector max_abs(Vector a, Vector b) { return max(abs(a), abs(b)); }
-  static TOUCHSTONE_INLINE Scalar reduce_max(Vector x) {
-    const Scalar even = x[0] > x[2] ? x[0] : x[2], odd = x[1] > x[3] ? x[1] : x[3];
-    return even > odd ? even : odd;
-  }
-  static TOUCHSTONE_INLINE Vector sqrt(Vector x) {
-    return Vector{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
-  }
-  static TOUCHSTONE_INLINE unsigned to_bits(Mask m) {
-#if defined(__x86_64__)
-    if constexpr (sizeof(Scalar) == 4) {
-      return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(m)));
-    }
-#endif
-    return static_cast<unsigned>((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
-  }
-  static TOUCHSTONE_INLINE Mask from_bits(unsigned bits) {
-    const auto set = [bits](unsigned lane) { return -static_cast<Integer>(bits >> lane & 1); };
-    return Mask{set(0), set(1), set(2), set(3)};
-  }
-  static TOUCHSTONE_INLINE Vector concat(const Quad<Scalar>* quads) { return quads[0]; }
-  static TOUCHSTONE_INLINE Vector concat_at(const Scalar* const* at) { return load(at[0]); }
-  static TOUCHSTONE_INLINE void transpose(Vector r[4]) {
-    const Vector a = r[0], b = r[1], c = r[2], d = r[3];
-    for (int k = 0; k < 4; ++k) r[k] = Vector{a[k], b[k], c[k], d[k]};
-  }
-  static TOUCHSTONE_INLINE Mask meet(Vector a, Vector b, Vector c, Vector d) {
-    return (c <= b) & (a <= d);
-  }
-  static TOUCHSTONE_INLINE Mask meet(Mask within, Vector a, Vector b, Vector c, Vector d) {
-    return within & (c <= b) & (a <= d);
-  }
-
-  static Scalar reduce_min16(const Scalar* from) {
-    Vector x = load(from);
-    for (std::size_t part = width; part < 16; part += width) x = min(load(from + part), x);
-    return reduce_min4(x);
-  }
-  static Scalar reduce_max16(const Scalar* from) {
-    Vector x = load(from);
-    for (std::size_t part = width; part < 16; part += width) x = max(load(from + part), x);
-    return reduce_max4(x);
-  }
-  template <class Value>
-  static std::size_t compress(unsigned bits, const Value* from, Value* to) {
-    std::size_t count = 0;
-    for (; bits != 0; bits &= bits - 1) to[count++] = from[std::countr_zero(bits)];
-    return count;
-  }
-  static std::size_t compress_indices(unsigned bits, std::uint32_t first, std::uint32_t* to) {
-    std::size_t count = 0;
-    for (; bits != 0; bits &= bits - 1) {
-      to[count++] = first + static_cast<std::uint32_t>(std::countr_zero(bits));
-    }
-    return count;
-  }
-  static void fill(std::uint32_t x, std::uint32_t* to) { std::fill_n(to, 16, x); }
-  static unsigned test(const std::uint32_t* marks, std::uint32_t want) {
-    unsigned bits = 0;
-    for (unsigned lane = 0; lane < width; ++lane) {
-      bits |= static_cast<unsigned>((marks[lane] & want) == want) << lane;
-    }
-    return bits;
-  }
-};
 namespace baseline {
+#define TOUCHSTONE_TARGET
+#include "algorithms/kernels/simd/quad_lanes.inl"
+
 // SSE2 on x86-64, elsewhere what the machine has.
 template <class Scalar>
 struct Simd : QuadLanes<Scalar> {};
@@ -259,7 +168,6 @@ struct Simd<double> {
     return within & meet(a, b, c, d);
   }
 };
-#define TOUCHSTONE_TARGET
 #include "algorithms/kernels/simd/quads.inl"
 #undef TOUCHSTONE_TARGET
 }  // namespace baseline

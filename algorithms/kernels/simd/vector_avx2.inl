@@ -2,6 +2,8 @@
 
 namespace avx2 {
 #define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX2
+#include "algorithms/kernels/simd/quad_lanes.inl"
+
 // The places of the set bits of each byte, lowest first, each in a byte.
 inline constexpr std::array<std::uint64_t, 256> compress_orders = [] {
   std::array<std::uint64_t, 256> all{};

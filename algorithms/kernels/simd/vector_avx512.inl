@@ -2,6 +2,8 @@
 
 namespace avx512 {
 #define TOUCHSTONE_TARGET TOUCHSTONE_TARGET_AVX512
+#include "algorithms/kernels/simd/quad_lanes.inl"
+
 template <class Scalar>
 struct Simd;
 
