@@ -74,7 +74,7 @@ struct ContactFeature {
 // The greatest sine of the angle between the direction's perpendicular and a face or an edge that
 // still counts as a feature; beyond it only the furthest point does.
 template <class Scalar>
-inline constexpr Scalar greatest_tilt = Scalar{0.42};  // 25 degrees
+inline constexpr Scalar greatest_tilt = static_cast<Scalar>(0.42);  // 25 degrees
 
 // Finds the feature that supports the body in `direction` (unit). `centre` is the body's place in
 // the frame and `rotation` its pose's. The rim of a cylinder or cone becomes an inscribed polygon

@@ -23,7 +23,7 @@ double reach(const Shape& shape, const Pose& pose) {
 template <class Scalar>
 void support(const Mat3<Scalar>& m, const Vec3<Scalar>& n, Scalar& reach, Scalar& per_reach,
              Vec3<Scalar>& point) {
-  constexpr Scalar shortest = sizeof(Scalar) == 8 ? Scalar{1e-200} : Scalar{1e-24f};
+  constexpr Scalar shortest = sizeof(Scalar) == 8 ? static_cast<Scalar>(1e-200) : Scalar{1e-24f};
   const Vec3<Scalar> turned = m.transpose() * n;
   const Scalar squared = turned.squaredNorm();
   const bool vanishes = !(squared > shortest);

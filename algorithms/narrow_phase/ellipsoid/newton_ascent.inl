@@ -11,7 +11,8 @@ TOUCHSTONE_TARGET TOUCHSTONE_FLATTEN Climb<Scalar> climb_at(const EllipsoidPair<
   constexpr Scalar rounding = EllipsoidPair<Scalar>::rounding;
   constexpr Scalar noise = rounding / 4;
   // Beyond this slide witness points within the tolerance would still be oblique.
-  const Scalar askew = std::max(tolerance, sizeof(Scalar) == 8 ? Scalar{1e-10} : rounding);
+  const Scalar askew =
+      std::max(tolerance, sizeof(Scalar) == 8 ? static_cast<Scalar>(1e-10) : rounding);
   const Scalar inside = std::max(pair.radius - rounding, Scalar{0});
   const Scalar far = goal.only_apart ? rounding : rounding + static_cast<Scalar>(goal.margin);
   Climb<Scalar> found;
