@@ -63,10 +63,10 @@ class WorldTree final : public PairSearch {
 
   // Rounded outward, with room for the rounding of the box.
   static Aabb box_of(const PartBounds& bounds) {
-    constexpr float infinite = std::numeric_limits<float>::infinity();
+    constexpr float unbounded = std::numeric_limits<float>::infinity();
     Aabb box;
-    box.min.fill(-infinite);
-    box.max.fill(infinite);
+    box.min.fill(-unbounded);
+    box.max.fill(unbounded);
     if (!std::isfinite(bounds.radius)) return box;
     const Vec3d half = bounds.axes.cwiseAbs() * bounds.half;
     for (int i = 0; i < 3; ++i) {
