@@ -29,7 +29,7 @@ class ByteWriter {
   void add(const T& value) {
     if constexpr (HasFields<T>) {
       // add() only reads the value.
-      const_cast<T&>(value).for_each_field([this](auto& field) { add(field); });
+      const_cast<T&>(value).for_each_field([this](auto& field) { this->add(field); });
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
       bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -57,7 +57,7 @@ class ByteReader {
   template <class T>
   void read(T& value) {
     if constexpr (HasFields<T>) {
-      value.for_each_field([this](auto& field) { read(field); });
+      value.for_each_field([this](auto& field) { this->read(field); });
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
       std::memcpy(static_cast<void*>(&value), next(sizeof value).data(), sizeof value);

@@ -24,9 +24,7 @@ struct ContactPlan {
 };
 
 using enum FeatureKind;
-constexpr auto free = Alignment::free;
-constexpr auto parallel = Alignment::parallel;
-constexpr auto exact = Alignment::exact;
+using enum Alignment;
 
 constexpr ContactPlan plans[] = {
     {face, face, free, 4},     {face, face, exact, 2},    {edge, edge, free, 4},

@@ -11,8 +11,8 @@
 namespace touchstone::kinds {
 namespace {
 
-constexpr std::array<std::string_view, 8> names = {"vertex", "edge", "face", "smooth",
-                                                   "side",   "rim",  "tip",  "base"};
+constexpr std::array<std::string_view, 8> kind_names = {"vertex", "edge", "face", "smooth",
+                                                        "side",   "rim",  "tip",  "base"};
 
 // Returns a share of a whole, well inside it.
 double inside(base::Random& random) { return random.uniform(0.1, 0.9); }
@@ -226,7 +226,7 @@ Feature pick_plane_feature(const Shape& shape, double far, base::Random& random)
 
 }  // namespace
 
-std::string_view to_string(FeatureKind kind) { return names[static_cast<std::size_t>(kind)]; }
+std::string_view to_string(FeatureKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
 bool has_feature(ShapeKind shape, FeatureKind feature) {
   switch (feature) {
@@ -260,7 +260,7 @@ Feature pick_feature(const Shape& shape, FeatureKind kind, double reach, base::R
 
 FeatureKind random_feature_kind(const Shape& shape, base::Random& random) {
   for (;;) {
-    const auto kind = static_cast<FeatureKind>(random.below(names.size()));
+    const auto kind = static_cast<FeatureKind>(random.below(kind_names.size()));
     if (has_feature(shape.kind, kind)) return kind;
   }
 }
