@@ -189,7 +189,7 @@ std::span<const DrawnFamily<CastCase>> cast_families() {
                                                                      {"casts-pass-1e-12", 1e-12},
                                                                      {"casts-pass-deep", -0.1}}};
     for (const auto& [name, gap] : gaps) {
-      add(name, [gap = gap](Draws& draws, std::uint64_t index) { return pass(gap, draws, index); });
+      add(name, [gap](Draws& draws, std::uint64_t index) { return pass(gap, draws, index); });
     }
     add("casts-on-a-grid", on_a_grid);
     add("casts-from-touch", from_touch);
@@ -208,9 +208,7 @@ std::span<const DrawnFamily<CastCase>> cast_families() {
     constexpr std::array<std::pair<const char*, double>, 3> turns = {
         {{"turns-half-a-radian", 0.5}, {"turns-3-radians", 3}, {"turns-30-radians", 30}}};
     for (const auto& [name, radians] : turns) {
-      turn(name, 8, [radians = radians](Draws& draws, std::uint64_t) {
-        return any_turning(radians, draws);
-      });
+      turn(name, 8, [radians](Draws& draws, std::uint64_t) { return any_turning(radians, draws); });
     }
     turn("turns-needle", 8, [](Draws& draws, std::uint64_t index) {
       return families::turning_needle(index % 2 == 0, draws);

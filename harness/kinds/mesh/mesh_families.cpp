@@ -253,7 +253,7 @@ std::span<const DrawnFamily<ConcaveCase>> mesh_families() {
          {"bodies-depth-1e-12", -1e-12}}};
     for (const auto& [name, gap] : gaps) {
       add(name, 2,
-          [gap = gap](Draws& draws, std::uint64_t index) { return convex_at(gap, draws, index); });
+          [gap](Draws& draws, std::uint64_t index) { return convex_at(gap, draws, index); });
     }
     add("bodies-flush", 1, flush);
     add("bodies-solid", 1, solids);
