@@ -166,8 +166,7 @@ std::string scene_hash(const Scene& scene);
 // Writes a scene file that load_scene turns into the same bodies, at rest, and an OFF file beside it for
 // each mesh. Each body has a part, and half-spaces are bodies of their own. Where parts of a compound were
 // placed within others, that their poses are rounded is lost. `names`: none, or one for each body, without
-// quotes. `keys` is TOML of the
-// scene's other keys.
+// quotes. `keys` is TOML of the scene's other keys.
 void write_scene(const std::filesystem::path& file, std::span<const SceneBody> bodies,
                  std::span<const std::string> names = {}, const std::string& keys = {});
 
