@@ -37,8 +37,8 @@ class CheckAxes : public ::testing::Test {
 };
 
 TEST_F(CheckAxes, OursHoldAndThePageSaysSo) {
-  const Ran ran = check("--narrow ours --axes gap,parallel --scalar double --quick --page " +
-                        path("page.md"));
+  const Ran ran =
+      check("--narrow ours --axes gap,parallel --scalar double --quick --page " + path("page.md"));
   EXPECT_EQ(ran.status, 0) << ran.text;
   EXPECT_THAT(ran.text, HasSubstr("none of our own algorithms is silently wrong"));
   EXPECT_EQ(column("stress.csv", "axis"), (std::set<std::string>{"gap", "parallel"}));

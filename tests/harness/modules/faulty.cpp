@@ -1,5 +1,5 @@
-// A module with one fault, which FAULT names. The tests compile it once for each: its headers are few, which takes a
-// quarter of the time.
+// A module with one fault, which FAULT names. The tests compile it once for each: its headers are few, which takes less
+// than half of the time.
 // Without a fault it is right: a broad phase, `mine-boxes`, and a narrow phase of two spheres, `mine-spheres`. Faults of
 // answers come with spheres whose centres are 4 m apart, those of boxes in frames of three boxes or more.
 #include <pthread.h>
