@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include "algorithms/oracle/answer.h"
 #include "algorithms/oracle/certificates/certificate_check.h"
 #include "algorithms/oracle/exact_measure.h"
 #include "tests/algorithms/oracle/reference.h"
@@ -221,6 +222,30 @@ TEST(Oracle, NothingIsKnownOfASingularHalfspace) {
   EXPECT_EQ(fault(certificate, a, b), "");
   EXPECT_EQ(oracle.prove(a, a, certificate).answer, Answer::unknown);
   EXPECT_EQ(fault(certificate, a, a), "");
+}
+
+// Bounds belong to `touching` and `unknown` whatever was asked.
+TEST(OracleAnswer, OfAYesOrNoHasNoBoundsOfAnEarlierCall) {
+  Shape cube;
+  cube.kind = ShapeKind::box;
+  cube.half_extents = Vec3d::Constant(1);
+  Shape plane;
+  plane.kind = ShapeKind::halfspace;
+  const Solid box(cube), halfspace(plane);
+  Pose beside, flat;
+  beside.translation = Vec3d(2, 0.5, 0.25);
+  flat.rotation.row(1).setZero();
+  Oracle oracle;
+  const auto expect = [&](const Body& a, const Body& b, Answer expected) {
+    Outcome outcome;
+    outcome.lower = -18;
+    outcome.upper = 19;
+    answer(oracle, a, b, Task::intersect, outcome);
+    EXPECT_EQ(outcome.answer, expected);
+    EXPECT_TRUE(std::isnan(outcome.lower) && std::isnan(outcome.upper));
+  };
+  expect({box, Pose{}}, {box, beside}, Answer::touching);
+  expect({halfspace, flat}, {box, beside}, Answer::unknown);
 }
 
 // The support of the difference along n, as a signed square.
