@@ -352,6 +352,7 @@ TEST(Configurations, AgreeWithEveryPairByItself) {
         };
         const auto right = answers_of(exact());
         for (const ConfigurationEntry* entry : asked(task)) {
+          if (meshes && entry->info.name == "mujoco-world") continue;  // hulls in place of meshes
           const auto answers = answers_of(*entry);
           for (std::size_t i = 0; i < answers.size(); ++i) {
             SCOPED_TRACE(entry->info.name + " " + std::string(to_string(task)));
