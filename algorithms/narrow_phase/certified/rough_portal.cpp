@@ -116,11 +116,11 @@ bool RoughPortal::enclose_ray() {
     const double length = edge.norm();
     if (!(length > tiny)) return false;
     Vec2d across(-edge.y() / length, edge.x() / length);
-    const double off = across.dot(at_p);
-    if (off > tiny) across = -across;
+    const double offset = across.dot(at_p);
+    if (offset > tiny) across = -across;
     r = support_along(across);
     Vec2d at_r = flat(r);
-    if (std::abs(off) <= tiny && !(across.dot(at_r) - off > tiny)) {
+    if (std::abs(offset) <= tiny && !(across.dot(at_r) - offset > tiny)) {
       // Zero is on an edge of what C is across the ray; the other side has the third point.
       across = -across;
       r = support_along(across);
