@@ -62,7 +62,7 @@ class FclMeshes final : public ConcavePhase {
       if (!all && !pairs.empty()) break;
     }
     if (!pairs.empty()) outcome.answer = Answer::overlapping;
-    if (task == ConcaveTask::distance && pairs.empty()) measure(a, b, outcome);
+    if (task == ConcaveTask::distance && pairs.empty()) find_nearest(a, b, outcome);
   }
 
  private:
@@ -107,7 +107,7 @@ class FclMeshes final : public ConcavePhase {
     }
   }
 
-  void measure(const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome) const {
+  void find_nearest(const PlacedConcave& a, const PlacedConcave& b, Outcome& outcome) const {
     const fcl::DistanceRequest<double> request(true);
     for (const Part& p : bodies_[a.body]) {
       for (const Part& q : bodies_[b.body]) {
