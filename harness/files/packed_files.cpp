@@ -102,7 +102,7 @@ std::size_t ByteReader::unpack(std::span<char> buffer) {
 }
 
 LineReader::LineReader(const std::filesystem::path& file)
-    : file_(file.string()), bytes_(file), buffer_(std::size_t{1} << 17) {}
+    : file_(file.string()), bytes_(file), buffer_(std::size_t{1} << 16) {}
 
 void LineReader::refuse_longer(std::size_t size) const {
   if (size <= base::longest_text) return;
