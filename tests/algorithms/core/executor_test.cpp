@@ -94,7 +94,7 @@ TEST_P(Executors, ATaskThatWaitsLeavesItsRangeToOthers) {
 #if defined(__linux__)
 TEST_P(Executors, PinnedThreadsHaveAProcessorEach) {
   // The test runs in a thread of its own, because pins stay.
-  std::thread([this] {
+  std::thread([] {
     cpu_set_t allowed;
     ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
     if (CPU_COUNT(&allowed) < 2) GTEST_SKIP() << "there is one processor only";

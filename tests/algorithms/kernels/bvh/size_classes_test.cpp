@@ -12,7 +12,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::array levels{Isa::baseline, Isa::avx2, Isa::avx512};
+constexpr std::array all_levels{Isa::baseline, Isa::avx2, Isa::avx512};
 
 class SizeClassesTest : public testing::Test {
  protected:
@@ -58,7 +58,7 @@ TEST_F(SizeClassesTest, SamplesTheSameAtEveryLevel) {
         region.add(boxes[i]);
         ++bodies;
       }
-      for (const Isa level : levels) {
+      for (const Isa level : all_levels) {
         limit_isa(level);
         const SizeSample sample(boxes, stride);
         EXPECT_EQ(sample.region.low, region.low);
@@ -83,7 +83,7 @@ TEST_F(SizeClassesTest, NoBoxOfASmallerClassIsLarger) {
     std::vector<std::uint32_t> first(count);
     limit_isa(Isa::baseline);
     classes.of(boxes, first.data());
-    for (const Isa level : levels) {
+    for (const Isa level : all_levels) {
       limit_isa(level);
       std::vector<std::uint32_t> own(count);
       classes.of(boxes, own.data());
@@ -113,7 +113,7 @@ TEST_F(SizeClassesTest, ExtremeBoxesHaveAClass) {
   constexpr float most = std::numeric_limits<float>::max();
   std::vector<Aabb> boxes(100, Aabb{{0.0f, 0.0f, 0.0f}, {-0.0f, -0.0f, -0.0f}});
   boxes[3] = {{-most, -most, -most}, {most, most, most}};
-  for (const Isa level : levels) {
+  for (const Isa level : all_levels) {
     limit_isa(level);
     const SizeClasses classes(take_sample(boxes));
     std::vector<std::uint32_t> own(boxes.size());
