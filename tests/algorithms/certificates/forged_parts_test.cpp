@@ -111,7 +111,7 @@ class Forger {
       refused("an open pair without need", [](auto& c) { c.undecided = 1; });
     }
     if (!proof_.inside) {
-      refused("an inside", [](auto& c) { c.inside.emplace(); });
+      refused("an inside", [](auto& c) { c.inside.emplace(PartsCertificate::Inside{}); });
     } else {
       refused("no inside", [](auto& c) { c.inside.reset(); });
       refused("no part", [](auto& c) { c.inside->part = 1000000; });
