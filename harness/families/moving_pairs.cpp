@@ -85,7 +85,10 @@ Shape random_shape(ShapeKind kind, Draws& random) {
   }
   std::vector<Vec3d> vertices;
   const int count = 4 + random.below(28);
-  for (int i = 0; i < count; ++i) vertices.push_back(random.uniform(0.5, 1) * random.direction());
+  for (int i = 0; i < count; ++i) {
+    const Vec3d direction = random.direction();
+    vertices.push_back(random.uniform(0.5, 1) * direction);
+  }
   return hull_shape(std::move(vertices));
 }
 
@@ -197,7 +200,8 @@ MovingPairCase turning(ShapeKind a, ShapeKind b, double radians, Draws& random) 
   c.b = random_shape(b, random);
   c.pose_a.rotation = random.rotation();
   c.pose_b.rotation = random.rotation();
-  c.pose_b.translation = random.uniform(2, 4) * random.direction();
+  const Vec3d way_to_b = random.direction();
+  c.pose_b.translation = random.uniform(2, 4) * way_to_b;
   c.motion_a = {random.vector(1), radians * random.direction()};
   c.motion_b = {random.vector(2) - 0.5 * c.pose_b.translation, radians * random.direction()};
   c.toi = std::numeric_limits<double>::quiet_NaN();

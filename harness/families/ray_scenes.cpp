@@ -93,8 +93,8 @@ std::vector<SceneBody> crowd(Draws& draws) {
   std::vector<SceneBody> bodies;
   for (std::size_t i = 0; i < 60; ++i) {
     const ShapeKind kind = bounded_kinds[i % bounded_kinds.size()];
-    const Shape shape =
-        geometry::scaled_shape(random_shape(kind, draws), draws.uniform(0.125, 0.5));
+    const double scale = draws.uniform(0.125, 0.5);
+    const Shape shape = geometry::scaled_shape(random_shape(kind, draws), scale);
     bodies.push_back({body_of(shape), pose_anywhere(draws)});
   }
   return bodies;

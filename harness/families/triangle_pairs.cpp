@@ -30,12 +30,19 @@ Vec3d inside(const Corners& t, Draws& random) {
 }
 double either_sign(Draws& random, double size) { return random.below(2) == 0 ? size : -size; }
 
-TrianglePair generic(Draws& random, double /*size*/) { return of(any(random), any(random)); }
+TrianglePair generic(Draws& random, double /*size*/) {
+  const Corners b = any(random), a = any(random);
+  return of(a, b);
+}
 
 TrianglePair coplanar(Draws& random, double /*size*/) {
   const Vec3d origin = grid_point(random), u = grid_point(random), v = grid_point(random);
-  const auto point = [&] { return Vec3d(origin + u * random.below(7) + v * random.below(7)); };
-  return of({point(), point(), point()}, {point(), point(), point()});
+  const auto point = [&] {
+    const int on_v = random.below(7), on_u = random.below(7);
+    return Vec3d(origin + u * on_u + v * on_v);
+  };
+  const Corners b = {point(), point(), point()}, a = {point(), point(), point()};
+  return of(a, b);
 }
 
 TrianglePair shared_vertex(Draws& random, double /*size*/) {
@@ -52,14 +59,19 @@ TrianglePair shared_edge(Draws& random, double /*size*/) {
   return pair;
 }
 
+TrianglePair pair_on_grid(Draws& random) {
+  const Corners b = on_grid(random), a = on_grid(random);
+  return of(a, b);
+}
+
 TrianglePair vertex_on_face(Draws& random, double /*size*/) {
-  TrianglePair pair = of(on_grid(random), on_grid(random));
+  TrianglePair pair = pair_on_grid(random);
   pair.b[0] = inside(pair.a, random);
   return pair;
 }
 
 TrianglePair edge_on_edge(Draws& random, double /*size*/) {
-  TrianglePair pair = of(on_grid(random), on_grid(random));
+  TrianglePair pair = pair_on_grid(random);
   const Vec3d middle = (pair.a[0] + pair.a[1]) / 2, way = grid_point(random);
   pair.b[0] = middle - way * 2;
   pair.b[1] = middle + way;
@@ -67,7 +79,7 @@ TrianglePair edge_on_edge(Draws& random, double /*size*/) {
 }
 
 TrianglePair degenerate(Draws& random, double /*size*/) {
-  TrianglePair pair = of(on_grid(random), on_grid(random));
+  TrianglePair pair = pair_on_grid(random);
   pair.a[2] = random.below(3) == 0 ? pair.a[0] : Vec3d((pair.a[0] + pair.a[1]) / 2);
   if (random.below(3) == 0) pair.a[1] = pair.a[2] = pair.a[0];
   if (random.below(2) == 0) pair.b[2] = pair.b[1];
@@ -131,8 +143,9 @@ TrianglePair parallel_planes(Draws& random, double size) {
   const bool tilted = random.below(2) == 0;
   const Vec3d u = pair.a[1] - pair.a[0], v = pair.a[2] - pair.a[0];
   for (Vec3d& corner : pair.b) {
-    corner = pair.a[0] + u * random.uniform(-1, 1) + v * random.uniform(-1, 1) +
-             normal * (tilted ? step * random.uniform(-1, 1) : step);
+    const double off = tilted ? step * random.uniform(-1, 1) : step;
+    const double on_v = random.uniform(-1, 1), on_u = random.uniform(-1, 1);
+    corner = pair.a[0] + u * on_u + v * on_v + normal * off;
   }
   return pair;
 }

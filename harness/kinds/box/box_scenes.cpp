@@ -103,7 +103,8 @@ std::vector<BoxScene> box_scenes(std::uint64_t seed) {
       {"sizes",
        [](base::Random& random) {
          const double size = random.magnitude(1e-6, 1e4);
-         return box_at(10 * point(random), size * point(random));
+         const Vec3d half = size * point(random);
+         return box_at(10 * point(random), half);
        }},
   };
   std::vector<BoxScene> scenes;

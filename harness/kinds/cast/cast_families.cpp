@@ -55,7 +55,9 @@ CastCase meet(ContactFeature feature, Draws& draws, std::uint64_t index) {
 
 CastCase pass(double gap, Draws& draws, std::uint64_t index) {
   const ShapeKind a = any_kind(draws, index), b = quick_kind(draws);
-  return case_of(families::passing(a, b, any_feature(draws), gap, draws.uniform(0.5, 4), draws));
+  const double path = draws.uniform(0.5, 4);
+  const ContactFeature feature = any_feature(draws);
+  return case_of(families::passing(a, b, feature, gap, path, draws));
 }
 
 // At every size and path: by 2^-20 to 2^20, and 10^-6 to 10^6 of the size.
@@ -63,9 +65,10 @@ CastCase every_scale(Draws& draws, std::uint64_t index) {
   const ShapeKind a = quick_kind(draws), b = quick_kind(draws);
   const double scale = std::ldexp(1, draws.below(41) - 20);
   const double path = std::ldexp(1, draws.below(41) - 20);
-  const MovingPairCase c =
-      index % 2 == 0 ? families::meeting(a, b, any_feature(draws), draws.uniform(0, 1), path, draws)
-                     : families::passing(a, b, any_feature(draws), 1e-6, path, draws);
+  const double toi = index % 2 == 0 ? draws.uniform(0, 1) : 0;
+  const ContactFeature feature = any_feature(draws);
+  const MovingPairCase c = index % 2 == 0 ? families::meeting(a, b, feature, toi, path, draws)
+                                          : families::passing(a, b, feature, 1e-6, path, draws);
   return case_of(families::scaled(c, scale));
 }
 
@@ -78,8 +81,9 @@ CastCase far_path(Draws& draws, std::uint64_t index) {
 
 CastCase alike(Draws& draws, std::uint64_t index) {
   constexpr std::array gaps = {1e-6, 0.3, -1e-6, -0.2};
-  MovingPairCase c = families::passing(any_kind(draws, index), quick_kind(draws),
-                                       ContactFeature::face, gaps[index % gaps.size()], 0, draws);
+  const ShapeKind b = quick_kind(draws), a = any_kind(draws, index);
+  MovingPairCase c =
+      families::passing(a, b, ContactFeature::face, gaps[index % gaps.size()], 0, draws);
   c.motion_a = c.motion_b = {};
   return case_of(index % 3 == 0 ? c : families::drifting(c, draws.vector(10)));
 }
@@ -108,8 +112,8 @@ CastCase from_touch(Draws& draws, std::uint64_t index) {
 }
 
 CastCase overlapping(Draws& draws, std::uint64_t index) {
-  MovingPairCase c = families::passing(any_kind(draws, index), quick_kind(draws),
-                                       ContactFeature::vertices, -0.1, 1, draws);
+  const ShapeKind b = quick_kind(draws), a = any_kind(draws, index);
+  MovingPairCase c = families::passing(a, b, ContactFeature::vertices, -0.1, 1, draws);
   c.pose_b.translation += 0.5 * c.motion_b.displacement;  // it begins in the middle
   return case_of(c);
 }

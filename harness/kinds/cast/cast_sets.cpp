@@ -137,8 +137,10 @@ void add_pair(CastInput& input, std::size_t kind, Way way, base::Random& random)
     place_in_touch(a, pose_a, b, way, direction, across, pose_b, motion_b);
   }
   if (const double turn = radians(way); turn > 0) {
-    motion_a.rotation_vector = random.uniform(0.5, 1) * turn * random.on_sphere();
-    motion_b.rotation_vector = random.uniform(0.5, 1) * turn * random.on_sphere();
+    const Vec3d axis_a = random.on_sphere();
+    motion_a.rotation_vector = random.uniform(0.5, 1) * turn * axis_a;
+    const Vec3d axis_b = random.on_sphere();
+    motion_b.rotation_vector = random.uniform(0.5, 1) * turn * axis_b;
   }
   input.first.push_back(static_cast<std::uint32_t>(input.poses.size()));
   input.second.push_back(static_cast<std::uint32_t>(input.poses.size() + 1));

@@ -100,7 +100,8 @@ ConfigurationModel drawn_robot(std::uint32_t family, Draws& draws) {
   for (int i = 0; i < obstacles; ++i) {
     ModelPart part;
     part.pose.rotation = draws.below(2) == 0 ? Mat3d::Identity() : draws.rotation();
-    part.pose.translation = draws.direction() * draws.uniform(0.4, 1.2);
+    const double away = draws.uniform(0.4, 1.2);
+    part.pose.translation = draws.direction() * away;
     part.body = make == Make::meshes && draws.below(2) == 0 ? any_mesh(0.25, draws)
                                                             : body_of(any_primitive(0.25, draws));
     robot.parts.push_back(std::move(part));

@@ -87,7 +87,8 @@ SlidingInput make_sliding_input(std::size_t squares, std::string_view body, std:
     PlacedConcave slider{1, {rotation(), Vec3d::Zero()}};
     const Vec3d up = ground.pose.rotation.col(0).cross(ground.pose.rotation.col(1)).normalized();
     const double below = -up.dot(support_point(shape, slider.pose, -up));
-    const Vec3d at(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), 0);
+    const double y = random.uniform(-0.7, 0.7), x = random.uniform(-0.7, 0.7);
+    const Vec3d at(x, y, 0);
     slider.pose.translation = nearest_float(Vec3d(ground.pose(at) + (below - body_depth) * up));
     input.asked.emplace_back(ground, slider);
     input.up.push_back(up);

@@ -42,8 +42,9 @@ std::vector<Vec3d> make_points(const MeshInput& input, PointPlace place, std::si
         w = 1 - w;
       }
       const Vec3d& from = mesh.vertices[a];
+      const Vec3d direction = random.on_sphere();
       point = from + v * (mesh.vertices[b] - from) + w * (mesh.vertices[c] - from) +
-              random.uniform(0, 0.01) * size * random.on_sphere();
+              random.uniform(0, 0.01) * size * direction;
     }
     points.push_back(nearest_float(point));
   }
