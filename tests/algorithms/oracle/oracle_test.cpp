@@ -226,12 +226,12 @@ TEST(Oracle, NothingIsKnownOfASingularHalfspace) {
 
 // Bounds belong to `touching` and `unknown` whatever was asked.
 TEST(OracleAnswer, OfAYesOrNoHasNoBoundsOfAnEarlierCall) {
-  Shape cube;
-  cube.kind = ShapeKind::box;
-  cube.half_extents = Vec3d::Constant(1);
+  Shape block;
+  block.kind = ShapeKind::box;
+  block.half_extents = Vec3d::Constant(1);
   Shape plane;
   plane.kind = ShapeKind::halfspace;
-  const Solid box(cube), halfspace(plane);
+  const Solid box(block), halfspace(plane);
   Pose beside, flat;
   beside.translation = Vec3d(2, 0.5, 0.25);
   flat.rotation.row(1).setZero();
