@@ -63,7 +63,7 @@ class ModelText {
   // The part of each geom, in MuJoCo's order.
   const std::vector<std::uint32_t>& parts() const { return parts_; }
 
-  static constexpr int most_contacts = 100'000;
+  static constexpr int most_contacts = 5'000;
 
  private:
   const std::vector<Vec3d>* vertices_of(std::uint32_t part) const {
