@@ -26,16 +26,6 @@
 namespace touchstone {
 namespace {
 
-// MuJoCo has no cone, and its planes do not move.
-bool supports(const ConfigurationModel& model) {
-  return std::ranges::all_of(model.parts, [](const ModelPart& part) {
-    if (part.body.mesh || part.body.part_count() == 0) return true;
-    const Shape* const shape = sole_shape(part.body);
-    if (shape == nullptr || shape->kind == ShapeKind::cone) return false;
-    return shape->kind != ShapeKind::halfspace || part.link == ModelPart::world;
-  });
-}
-
 // The model as MuJoCo's XML. Parts without points are left out.
 class ModelText {
  public:
@@ -262,7 +252,16 @@ std::vector<ConfigurationEntry> peers_mujoco_configurations() {
                 .origin = Origin::peer,
                 .known_defect = "a mesh is its convex hull, in floats; MPR's tolerance is 1e-6 m"},
        .tasks = {ConfigurationTask::free, ConfigurationTask::motion},
-       .supports = supports,
+       // MuJoCo has no cone, and its planes do not move.
+       .supports =
+           [](const ConfigurationModel& model) {
+             return std::ranges::all_of(model.parts, [](const ModelPart& part) {
+               if (part.body.mesh || part.body.part_count() == 0) return true;
+               const Shape* const shape = sole_shape(part.body);
+               if (shape == nullptr || shape->kind == ShapeKind::cone) return false;
+               return shape->kind != ShapeKind::halfspace || part.link == ModelPart::world;
+             });
+           },
        .approximate = true,
        .make = make}};
 }
