@@ -125,7 +125,7 @@ void measure(Oracle& oracle, const Body& a, const Body& b, Task task, Outcome& o
 void answer(Oracle& oracle, const Body& a, const Body& b, Task task, Outcome& outcome) {
   if (task == Task::intersect) {
     outcome.answer = oracle.verdict(a, b);
-    outcome.lower = outcome.upper = Outcome::none;  // else bounds of an earlier call would be these
+    outcome.lower = outcome.upper = Outcome::none;  // those of an earlier call say nothing here
   } else {
     measure(oracle, a, b, task, outcome);
   }

@@ -6,7 +6,8 @@
 
 namespace touchstone::families {
 
-// What is drawn depends on the source: a check has one for each case, tests have others.
+// What is drawn depends on the source: a check has one for each case, tests have others. Draw into variables, one after the
+// other: g++ evaluates the arguments of a call, and operands, from the right, and clang from the left.
 class Draws {
  public:
   virtual ~Draws() = default;

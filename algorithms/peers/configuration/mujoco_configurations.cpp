@@ -3,10 +3,10 @@
 //          2.2: a model that its compiler makes, then mj_kinematics and mj_collision for each configuration.
 // Departs: each link has a free joint in place of the robot's own joints, since the poses of links are given. Pairs of
 //          bodies of which nothing is asked are excluded in the model; pairs of geoms are left out of the contacts.
-// Fails:   a mesh is its convex hull, in floats, and a cavity counts as solid. Shapes that are no sphere, capsule or box
-//          are asked by MPR with a tolerance of 1e-6 m. The rotation of a link is rounded to a quaternion. A mesh
-//          without a volume cannot be compiled. All contacts are found, where one would do.
-// Cost:    all contacts of each configuration; allocates only when a model is bound.
+// Fails:   a mesh is its convex hull, in floats, and a cavity counts as solid. Pairs without a function of their own are
+//          asked by MPR, with a tolerance of 1e-6 m. The rotation of a link is rounded to a quaternion. A mesh without a
+//          volume cannot be compiled. Of more than 5,000 contacts the others are not kept.
+// Cost:    all contacts of each configuration, where one would do; allocates only when a model is bound.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -171,6 +171,8 @@ std::unique_ptr<mjModel, Freed> compile(const std::string& text) {
 class MujocoConfigurations final : public ConfigurationQuery {
  public:
   void bind(const ConfigurationModel& model) override {
+    mju_user_warning = [](const char*) {
+    };  // else MuJoCo writes MUJOCO_LOG.TXT into the current folder
     const ModelText text(model);
     part_of_ = text.parts();
     data_.reset();
