@@ -364,11 +364,12 @@ void add_run_options(Arguments command, const WholeRun* whole) {
       .excludes(command.option("--plan"));
 
   const std::string one = "Instead of a campaign file";
-  const Option scene =
-      command.texts("--scene", options->scenes, "Scene files: .toml, rigid-ipc's .json, .aabbs")
-          .is_read()
-          .excludes(campaign)
-          .group(one);
+  const Option scene = command
+                           .texts("--scene", options->scenes,
+                                  "Scene files: .toml, rigid-ipc's .json, .aabbs, models")
+                           .is_read()
+                           .excludes(campaign)
+                           .group(one);
   const auto add = [&](Option option) { option.needs(scene).group(one); };
   add(command.text("--broad", options->broad, "Broad phases: names, all, ours, peers, oracle, none")
           .show_default());

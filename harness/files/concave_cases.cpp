@@ -55,7 +55,7 @@ const ConcaveBody& MeshFiles::body(const JsonNode& shape) {
   for (const char* key : {"mesh", "scale", "as"}) said[key] = shape.value().value(key, Json());
   const auto [known, is_new] = known_.try_emplace(said.dump(), all_.size());
   if (!is_new) return *all_[known->second].body;
-  constexpr std::string_view expected = "an OBJ, OFF, STL or PLY file";
+  constexpr std::string_view expected = "a mesh (.obj, .off, .stl, .ply) or a model";
   const JsonNode node = shape.at("mesh", expected);
   const std::filesystem::path file =
       std::filesystem::path(node.file()).parent_path() / node.text(expected);

@@ -8,6 +8,7 @@
 
 #include "harness/base/input_file.h"
 #include "harness/geometry/mesh_format.h"
+#include "harness/models/model.h"
 
 namespace touchstone::geometry {
 namespace {
@@ -119,13 +120,20 @@ Reader reader_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-bool is_mesh_file(const std::filesystem::path& file) { return reader_of(file) != nullptr; }
+bool is_mesh_file(const std::filesystem::path& file) {
+  return reader_of(file) != nullptr || models::is_model_file(file);
+}
 
 Mesh read_mesh(const std::filesystem::path& file) {
+  if (models::is_model_file(file)) {
+    models::ModelMesh whole = models::whole_mesh(file.string(), models::read_model(file));
+    return {std::move(whole.vertices), std::move(whole.triangles)};
+  }
   const Reader reader = reader_of(file);
   if (reader == nullptr) {
     throw base::InputError(file.string(), 0,
-                           "unknown mesh format; expected .obj, .off, .stl or .ply");
+                           "unknown mesh format; expected .obj, .off, .stl or .ply, or a model "
+                           "(.glb, .gltf, .dae, .fbx, .3ds)");
   }
   const std::string text = base::read_whole(file, base::largest_file, "a mesh file");
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {

@@ -19,6 +19,7 @@ struct Mesh {
 // file's extension. Throws InputError with file and line (or byte offset, for binary) and the
 // expected content. Errors are: an index out of range, a malformed number, NaN, infinity, a file
 // that ends early, and a mesh without vertices. Normals, colours, texture and material are ignored.
+// A model (models/model.h) is all its triangles as one mesh, in metres, in the root frame of its file.
 Mesh read_mesh(const std::filesystem::path& file);
 // True for an extension that read_mesh takes.
 bool is_mesh_file(const std::filesystem::path& file);

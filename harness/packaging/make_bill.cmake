@@ -1,7 +1,7 @@
-# Writes the bill of materials of the program (SPDX 2.3, JSON): the libraries that it was linked with or has compiled in,
+# Writes the bill of materials of the programs (SPDX 2.3, JSON): the libraries that they were linked with or has compiled in,
 # and the npm packages inside the page, each with its version and licence.
 #
-#   cmake -D PROGRAM=FILE -D VERSION=V -D DATE=YYYY-MM-DD -D SOURCE=FOLDER -D CGAL=ON|OFF -D OUT=FILE -P make_bill.cmake
+#   cmake -D PROGRAM=FILES -D VERSION=V -D DATE=YYYY-MM-DD -D SOURCE=FOLDER -D CGAL=ON|OFF -D OUT=FILE -P make_bill.cmake
 #
 # Licences of Debian's packages are those of packages.csv, versions those of dpkg. Where there is no dpkg, a library has the
 # name of its file and no version, and one that is compiled in has no version.

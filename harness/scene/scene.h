@@ -146,8 +146,8 @@ struct SceneOverrides {
   std::optional<double> moving = {};
 };
 
-// Reads a scene file: TOML (a generator, bodies, or an import), rigid-ipc's JSON, or Broadmark's
-// .aabbs. Paths inside a scene file are relative to it. Throws InputError with file, line and the
+// Reads a scene file: TOML (a generator, bodies, or an import), rigid-ipc's JSON, Broadmark's
+// .aabbs, a robot (.urdf) or a model (model_scene.h). Paths inside a scene file are relative to it. Throws InputError with file, line and the
 // expected value, also for an override that does not apply to the scene (a count for listed
 // bodies).
 Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});

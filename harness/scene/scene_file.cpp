@@ -8,10 +8,12 @@
 #include "algorithms/core/bounds.h"
 #include "harness/files/toml_table.h"
 #include "harness/geometry/tessellation.h"
+#include "harness/models/model.h"
 #include "harness/scene/body_reader.h"
 #include "harness/scene/box_frames.h"
 #include "harness/scene/generators/generators.h"
 #include "harness/scene/generators/options.h"
+#include "harness/scene/model_scene.h"
 #include "harness/scene/pair_filter.h"
 #include "harness/scene/pose_log.h"
 #include "harness/scene/rigid_ipc.h"
@@ -156,9 +158,9 @@ Scene load_recording(const std::filesystem::path& file) {
 }
 
 Scene import_scene(const std::filesystem::path& file, const MeshUses& uses) {
-  if (file.extension() == ".json") {
-    return import_rigid_ipc(file, uses.instead.value_or(uses.own.value_or(MeshUse::surface)));
-  }
+  const MeshUse use = uses.instead.value_or(uses.own.value_or(MeshUse::surface));
+  if (file.extension() == ".json") return import_rigid_ipc(file, use);
+  if (models::is_model_file(file)) return import_model(file, use);
   if (file.extension() == ".aabbs") return load_recording(file);
   throw base::InputError(
       file.string(), 0,
@@ -166,8 +168,8 @@ Scene import_scene(const std::filesystem::path& file, const MeshUses& uses) {
           ? "holds single pairs; `touchstone query FILE --page OUT.html` draws them"
       : file.extension() == ".xacro"
           ? "macros of a robot; expected an expanded file: `xacro FILE > robot.urdf`"
-          : "unknown kind of file; expected .toml, .json (rigid-ipc), .urdf (a robot) or .aabbs "
-            "(Broadmark)");
+          : "unknown kind of file; expected .toml, .json (rigid-ipc), .urdf (a robot), .aabbs "
+            "(Broadmark) or a model (.glb, .gltf, .dae, .fbx, .3ds)");
 }
 
 // Sets the number of frames; for a recording it keeps the first ones.
@@ -232,8 +234,8 @@ Scene read_toml(const toml::table& content, const std::filesystem::path& path,
   int frames = 1;
   bool is_robot = false, robot_draws = false, asks_fixed = true;
   for (const std::string& name : table.texts("import", {})) {
-    const std::filesystem::path imported =
-        shapes.existing_file(table, "import", name, "a .toml, .json, .urdf or .aabbs file");
+    const std::filesystem::path imported = shapes.existing_file(
+        table, "import", name, "a .toml, .json, .urdf or .aabbs file or a model");
     Scene one;
     if (imported.extension() == robot_ending) {
       if (std::exchange(is_robot, true)) {
@@ -395,8 +397,8 @@ Scene load_scene(const std::filesystem::path& path, const SceneOverrides& overri
   const std::string file = path.string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw base::InputError(file, 0,
-                           "no such file; expected a scene: .toml, .json, .urdf or .aabbs");
+    throw base::InputError(
+        file, 0, "no such file; expected a scene: .toml, .json, .urdf, .aabbs or a model");
   }
   Scene scene;
   std::vector<std::int64_t> lines;

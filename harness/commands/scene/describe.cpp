@@ -132,7 +132,9 @@ void describe(const DescribeOptions& options) {
 // Adds the options of a scene.
 std::shared_ptr<DescribeOptions> described(Arguments& command) {
   auto options = std::make_shared<DescribeOptions>();
-  command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, .urdf or .aabbs")
+  command
+      .text("scene", options->scene,
+            "Scene file: .toml, rigid-ipc's .json, .urdf, .aabbs or a model")
       .is_read()
       .required();
   command.number("--frames", options->overrides.frames, "Instead of the scene's own")

@@ -133,7 +133,9 @@ void draw(const DrawOptions& options) {
 
 void add_scene_draw(Arguments command) {
   auto options = std::make_shared<DrawOptions>();
-  command.text("scene", options->scene, "Scene file: .toml, rigid-ipc's .json, .urdf or .aabbs")
+  command
+      .text("scene", options->scene,
+            "Scene file: .toml, rigid-ipc's .json, .urdf, .aabbs or a model")
       .is_read()
       .required();
   command.text("--out", options->out, "The picture, .png")

@@ -21,6 +21,8 @@
 #include "harness/files/text_file.h"
 #include "harness/files/toml_table.h"
 #include "harness/geometry/mesh.h"
+#include "harness/models/model.h"
+#include "harness/scene/model_scene.h"
 #include "harness/scene/robot/planning_scene.h"
 #include "harness/scene/robot/xml_element.h"
 #include "harness/scene/scene.h"
@@ -58,6 +60,7 @@ std::string key_of(const fs::path& file) {
   if (ending == ".toml" || ending == ".json" || ending == ".urdf" || ending == ".aabbs") {
     return "import";
   }
+  if (models::is_model_file(file)) return "import";
   if (ending == ".srdf") return "srdf";
   if (scene::is_yaml(file)) {
     const bool is_request = files::read_text(file).find("goal_constraints") != std::string::npos;
@@ -73,7 +76,8 @@ std::string key_of(const fs::path& file) {
   if (geometry::is_mesh_file(file)) return "mesh";
   throw base::InputError(file.string(), 0,
                          "unknown kind of file; expected .toml, .json, .urdf, .srdf, .aabbs, "
-                         ".yaml, .csv, or a mesh (.obj, .off, .stl, .ply)");
+                         ".yaml, .csv, a mesh (.obj, .off, .stl, .ply) or a model (.glb, .gltf, "
+                         ".dae, .fbx, .3ds)");
 }
 
 // What a file that was read is.
@@ -138,6 +142,9 @@ fs::path folder_of(const std::set<fs::path>& read) {
   return outer;
 }
 
+// What is written of a model: a scene where it is imported, and a mesh where it is one.
+constexpr std::string_view model_scene_ending = ".toml", model_mesh_ending = ".off";
+
 class Copies {
  public:
   // `read` are whole paths.
@@ -151,10 +158,20 @@ class Copies {
 
   const std::map<fs::path, fs::path>& targets() const { return targets_; }
 
-  // A file that was read, or a folder that holds some, as the copy in `folder` names it; else empty.
-  std::string renamed(const fs::path& path, const fs::path& folder) const {
+  // The files that are to be written of models, each by the model.
+  const std::set<std::pair<fs::path, std::string_view>>& of_models() const { return of_models_; }
+
+  // A file that was read, or a folder that holds some, as the copy in `folder` names it; else empty. `key` is the one that
+  // names it.
+  std::string renamed(const fs::path& path, const fs::path& folder, std::string_view key) {
     const auto target = targets_.find(path);
-    if (target != targets_.end()) return target->second.lexically_relative(folder).generic_string();
+    if (target != targets_.end()) {
+      const std::string name = target->second.lexically_relative(folder).generic_string();
+      if (!models::is_model_file(path)) return name;
+      const auto ending = key == "import" ? model_scene_ending : model_mesh_ending;
+      of_models_.insert({path, ending});
+      return name + std::string(ending);
+    }
     const fs::path inside = path.lexically_relative(from_);
     const bool holds = std::ranges::any_of(targets_, [&](const auto& copy) {
       return !is_outside(copy.first.lexically_relative(path));
@@ -164,9 +181,9 @@ class Copies {
   }
 
   // The text of a TOML file with the names of the copies. It was in one folder, and will be in another.
-  std::string with_names(std::string text, const fs::path& was_in, const fs::path& is_in) const {
+  std::string with_names(std::string text, const fs::path& was_in, const fs::path& is_in) {
     std::map<std::string, std::string> names;
-    collect(toml::parse(text), was_in, is_in, names);
+    collect(toml::parse(text), "", was_in, is_in, names);
     // In one pass, so that a new name is not taken for an old one.
     for (std::size_t at = 0; at < text.size(); ++at) {
       const char quote = text[at];
@@ -183,22 +200,49 @@ class Copies {
     return text;
   }
 
+  // The text of a robot or of a rigid-ipc scene, in which models that were read are meshes.
+  std::string with_meshes(std::string text) {
+    std::set<std::string> done;
+    for (const auto& [path, target] : targets_) {
+      if (!models::is_model_file(path)) continue;
+      const std::string name = path.filename().string();
+      for (std::size_t at = text.find(name); at != std::string::npos;
+           at = text.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        const bool is_whole = at > 0 && end < text.size() &&
+                              std::string_view("/\"'").find(text[at - 1]) != std::string::npos &&
+                              std::string_view("\"'").find(text[end]) != std::string::npos;
+        if (!is_whole) continue;
+        of_models_.insert({path, model_mesh_ending});
+        if (!done.contains(name)) text.insert(end, model_mesh_ending);
+      }
+      done.insert(name);
+    }
+    return text;
+  }
+
  private:
-  void collect(const toml::node& node, const fs::path& was_in, const fs::path& is_in,
-               std::map<std::string, std::string>& names) const {
+  void collect(const toml::node& node, std::string_view key, const fs::path& was_in,
+               const fs::path& is_in, std::map<std::string, std::string>& names) {
     if (const toml::table* table = node.as_table()) {
-      for (const auto& [key, value] : *table) collect(value, was_in, is_in, names);
+      for (const auto& [inner, value] : *table) collect(value, inner.str(), was_in, is_in, names);
     } else if (const toml::array* array = node.as_array()) {
-      for (const toml::node& value : *array) collect(value, was_in, is_in, names);
+      for (const toml::node& value : *array) collect(value, key, was_in, is_in, names);
     } else if (const auto* text = node.as_string()) {
       if ((*text)->empty()) return;
-      const std::string name = renamed((was_in / **text).lexically_normal(), is_in);
-      if (!name.empty() && name != **text) names[**text] = name;
+      const std::string name = renamed((was_in / **text).lexically_normal(), is_in, key);
+      if (name.empty() || name == **text) return;
+      const auto [known, is_new] = names.try_emplace(**text, name);
+      if (is_new || known->second == name) return;
+      throw base::InputError(**text, 0,
+                             "one file names this model as a mesh and imports it; expected a copy "
+                             "of it for one of the two");
     }
   }
 
   fs::path out_, from_, to_;
   std::map<fs::path, fs::path> targets_;
+  std::set<std::pair<fs::path, std::string_view>> of_models_;
 };
 
 // How many elements of each name the readers of robots leave out.
@@ -294,6 +338,28 @@ void write_copy(const fs::path& to, const std::string& text) {
   files::write_text(to, text);
 }
 
+struct OfModel {
+  std::string words, left_out;
+};
+
+// Writes what our own readers take, so that the folder needs no Assimp.
+OfModel write_model(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  if (to.extension() == model_scene_ending) {
+    const scene::PlacedModel model = scene::place_model(from);
+    scene::write_model(model, to);
+    return {model.words, model.left_out};
+  }
+  const models::Model model = models::read_model(from);
+  models::ModelMesh whole = models::whole_mesh(from.string(), model);
+  scene::write_off(to, {std::move(whole.vertices), std::move(whole.triangles)});
+  return {fmt::format("mesh of a model; {}, {} up",
+                      model.metres == 1 ? "metres" : fmt::format("unit {} m", model.metres),
+                      model.up()),
+          model.left_out.words()};
+}
+
 void import_scene(const ImportOptions& options) {
   std::vector<fs::path> given;
   for (const std::string& file : options.files) {
@@ -310,7 +376,7 @@ void import_scene(const ImportOptions& options) {
   std::set<fs::path> read;
   for (const fs::path& file : scene.files) read.insert(whole_path(file));
   if (is_scene) read.erase(given[0]);
-  const Copies copies(out, read);
+  Copies copies(out, read);
 
   NewFolder folder(out);
   base::Table table({"file", "read as", "left out", "licence"});
@@ -329,19 +395,28 @@ void import_scene(const ImportOptions& options) {
                left_out.empty() ? "-" : left_out, licence_of(from)});
   };
   if (is_scene) add(given[0], scene_file);
+  const std::string own_text = copies.with_names(text, was_in, out);
   for (const auto& [from, to] : copies.targets()) {
-    const std::string content = files::read_text(from);
-    write_copy(to, ending_of(from) == ".toml"
+    if (models::is_model_file(from)) continue;
+    const std::string content = files::read_text(from), ending = ending_of(from);
+    write_copy(to, ending == ".toml"
                        ? copies.with_names(content, from.parent_path(), to.parent_path())
-                       : content);
+                   : ending == ".urdf" || ending == ".json" ? copies.with_meshes(content)
+                                                            : content);
     add(from, to);
+  }
+  for (const auto& [from, ending] : copies.of_models()) {
+    const fs::path to = copies.targets().at(from).string() + std::string(ending);
+    const auto [words, left_out] = write_model(from, to);
+    table.add({to.lexically_relative(out).generic_string(), words,
+               left_out.empty() ? "-" : left_out, licence_of(from)});
   }
   int number = 0;
   for (const fs::path& licence : licences) {
     const std::string name = number++ == 0 ? "LICENSE" : fmt::format("LICENSE-{}", number);
     write_copy(out / name, files::read_text(licence));
   }
-  write_copy(scene_file, copies.with_names(text, was_in, out));
+  write_copy(scene_file, own_text);
   const scene::Scene again = scene::load_scene(scene_file);
   for (const fs::path& file : again.files) {
     if (!is_outside(whole_path(file).lexically_relative(out))) continue;
@@ -367,10 +442,11 @@ void import_scene(const ImportOptions& options) {
 void add_scene_import(Arguments command) {
   const auto options = std::make_shared<ImportOptions>();
   command
-      .texts(
-          "FILE", options->files,
-          "A scene (.toml, .json of rigid-ipc, .urdf, .aabbs), or parts of one: a log of poses or "
-          "configurations (.csv), an SRDF file, a planning scene or request (.yaml), meshes")
+      .texts("FILE", options->files,
+             "A scene (.toml, .json of rigid-ipc, .urdf, .aabbs, a model such as .glb or .dae), or "
+             "parts "
+             "of one: a log of poses or "
+             "configurations (.csv), an SRDF file, a planning scene or request (.yaml), meshes")
       .required()
       .is_read();
   command.text("--out", options->out, "The folder to make").required();

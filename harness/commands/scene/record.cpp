@@ -103,7 +103,9 @@ void record(const RecordOptions& options) {
 
 void add_scene_record(Arguments command) {
   const auto options = std::make_shared<RecordOptions>();
-  command.text("SCENE", options->scene, "Scene file: .toml, .json (rigid-ipc), .urdf or .aabbs")
+  command
+      .text("SCENE", options->scene,
+            "Scene file: .toml, .json (rigid-ipc), .urdf, .aabbs or a model")
       .is_read()
       .required();
   command

@@ -185,7 +185,7 @@ bool run(const RepresentOptions& options) {
 
 void add_scene_represent(Arguments command) {
   auto options = std::make_shared<RepresentOptions>();
-  command.text("scene", options->scene, "Scene file: .toml, .urdf or rigid-ipc's .json")
+  command.text("scene", options->scene, "Scene file: .toml, .urdf, rigid-ipc's .json or a model")
       .is_read()
       .required();
   command

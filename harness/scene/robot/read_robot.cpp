@@ -139,8 +139,8 @@ class UrdfReader {
       read.mesh = mesh_file(element);
       if (!geometry::is_mesh_file(read.mesh)) {
         element.fail(
-            fmt::format("filename: the format of \"{}\" is not read; expected .obj, .off, .stl or "
-                        ".ply. Convert it to .obj or .stl",
+            fmt::format("filename: the format of \"{}\" is not read; expected .obj, .off, .stl, "
+                        ".ply, .dae, .glb, .gltf, .fbx or .3ds",
                         base::shortened(read.mesh.string(), 400)));
       }
       read.scale = element.vector("scale", Vec3d::Ones());

@@ -125,6 +125,9 @@ def check_commands(installed):
     run("check pair.jsonl --save-certificates proof.jsonl", holds=["proof.jsonl"])
     run("check --certificates proof.jsonl", holds=["1"])
     run("scene describe datasets/rock_pile.toml", holds=["bodies"])
+    with open(os.path.join(installed.home, "bad.glb"), "w", encoding="utf-8") as file:
+        file.write("no model")
+    run("scene describe bad.glb", status=2, holds=["bad.glb: ", "Assimp"])
     run("robot datasets/robots/arm.urdf --random 20 --out arm", holds=["arm/pairs.csv"])
     run("run datasets/campaigns/reference.toml --dry-run")
     run("run --scene datasets/shapes.toml --frames 2 --seconds 0.01 --broad naive --narrow certified --task intersect",

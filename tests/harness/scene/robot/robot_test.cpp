@@ -250,17 +250,17 @@ TEST(Robots, WarnOfWhatSrdfDoesNotHave) {
 
 TEST(Robots, RefuseMeshesThatAreNotRead) {
   const TemporaryFolder folder;
-  folder.write("hand.dae", "<COLLADA/>");
+  folder.write("hand.step", "<COLLADA/>");
   const auto fault_with = [&](const std::string& name) {
     const auto file = folder.write(
         "robot.urdf", "<robot>\n<link name=\"hand\"><collision><geometry><mesh filename=\"" + name +
                           "\"/></geometry></collision></link></robot>");
     return folder.without_path(input_fault([&] { scene::read_robot(file); }));
   };
-  EXPECT_THAT(fault_with("hand.dae"),
+  EXPECT_THAT(fault_with("hand.step"),
               testing::AllOf(StartsWith("robot.urdf:2: <mesh>: filename: the format of"),
-                             HasSubstr("hand.dae\" is not read; expected .obj, .off, .stl or .ply. "
-                                       "Convert it to .obj or .stl")));
+                             HasSubstr("hand.step\" is not read; expected .obj, .off, .stl, .ply, "
+                                       ".dae, .glb, .gltf, .fbx or .3ds")));
   const std::string missing = fault_with("meshes/hand.stl");
   EXPECT_THAT(missing, HasSubstr("\"meshes/hand.stl\" is not there; tried "));
   EXPECT_THAT(missing, HasSubstr("Expected a mesh, by a path from the robot's file"));
