@@ -15,6 +15,7 @@
 #include "algorithms/oracle/certificates/parts/parts_certificate_check.h"
 #include "algorithms/oracle/certificates/parts/scene_ray_check.h"
 #include "harness/base/error.h"
+#include "harness/base/input_file.h"
 #include "harness/campaign/campaign.h"
 #include "harness/cells/read_cells.h"
 #include "harness/files/callgrind.h"
@@ -27,6 +28,7 @@
 #include "harness/files/parts_certificates.h"
 #include "harness/files/ray_certificates.h"
 #include "harness/geometry/mesh.h"
+#include "harness/models/model.h"
 #include "harness/record/machine.h"
 #include "harness/scene/box_frames.h"
 #include "harness/scene/scene.h"
@@ -106,6 +108,13 @@ void check_points(const fs::path& file) {
       });
 }
 
+// What the process that reads models writes.
+void read_model_stream(const fs::path& file) {
+  const std::string text = base::read_whole(file, base::largest_file);
+  const models::Model model = models::parse_model(file.string(), text);
+  models::whole_mesh(file.string(), model);
+}
+
 void read_lines(const fs::path& file) {
   files::LineReader lines(file);
   while (lines.next()) {
@@ -160,6 +169,7 @@ const std::vector<Reader>& list() {
       {"stl", "mesh.stl", [](const fs::path& file) { geometry::read_mesh(file); }},
       {"ply", "mesh.ply", [](const fs::path& file) { geometry::read_mesh(file); }},
       {"off", "mesh.off", [](const fs::path& file) { geometry::read_mesh(file); }},
+      {"model-streams", "model.bin", read_model_stream},
       {"heights", "heights.png", [](const fs::path& file) { files::read_heights(file); }},
       {"aabbs", "boxes.aabbs", [](const fs::path& file) { scene::read_aabbs(file); }},
       {"boxes", "boxes.csv", [](const fs::path& file) { scene::read_box_frames(file); }},

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/scene/box_frames.h"
-#include "harness/scene/scene.h"
-#include "tests/harness/commands/program.h"
-#include "tests/harness/models/model_files.h"
+#include "tests/harness/commands/importing.h"
 #include "tests/project_folder.h"
 
 namespace touchstone {
@@ -14,34 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ContainsRegex;
 using testing::HasSubstr;
-
-class Import : public testing::Test {
- protected:
-  void SetUp() override {
-    fs::create_directories(folder_.path() / "mine/meshes");
-    folder_.write("mine/meshes/tip.obj",
-                  "v 0 0 0\nv 0.05 0 0\nv 0 0.05 0\nv 0 0 0.15\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 "
-                  "4\n");
-  }
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-  // Imports the files, takes these away, and returns the hash of what was made. Expects these words.
-  std::string import_alone(const std::string& files, const std::string& words = "") {
-    const std::string out = "out" + std::to_string(made_++);
-    const Ran ran = run_program("scene import " + files + " --out " + path(out));
-    EXPECT_EQ(ran.status, 0) << ran.text;
-    EXPECT_THAT(ran.text, HasSubstr(words));
-    fs::rename(folder_.path() / "mine", folder_.path() / "elsewhere");
-    const std::string hash = scene::scene_hash(scene::load_scene(path(out + "/scene.toml")));
-    fs::rename(folder_.path() / "elsewhere", folder_.path() / "mine");
-    return hash;
-  }
-  static std::string hash_of(const std::string& file) {
-    return scene::scene_hash(scene::load_scene(file));
-  }
-
-  TemporaryFolder folder_;
-  int made_ = 0;
-};
 
 const std::string ball = "[[body]]\nname = \"ball\"\nshape = {type = \"sphere\", radius = 0.1}\n";
 
@@ -107,58 +77,6 @@ TEST_F(Import, RecordingsMeshesAndRigidIpc) {
   folder_.write("mine/moved.toml", "poses = \"log.csv\"\nimport = \"ball.toml\"\n");
   EXPECT_EQ(import_alone(path("mine/log.csv") + " " + path("mine/ball.toml")),
             hash_of(path("mine/moved.toml")));
-}
-
-// The folder has meshes of our own formats in place of models.
-TEST_F(Import, ModelsBecomeScenesAndMeshes) {
-  using namespace model_files;
-  fs::create_directories(folder_.path() / "mine/arm/meshes");
-  folder_.write(
-      "mine/house.gltf",
-      gltf(R"({"name": "a", "mesh": 0, "rotation": [0.1, 0.7, -0.5, 0.5], "scale": [2, 2, 2],
-"children": [1]}, {"name": "a", "mesh": 0, "translation": [0.1, 0.2, 0.3], "camera": 0})",
-           data_uri(buffer), "0",
-           R"(, "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])"));
-  const std::string house = path("mine/house.gltf");
-  EXPECT_EQ(import_alone(house, "2 bodies"), hash_of(house));
-  EXPECT_TRUE(fs::exists(path("out0/mine/house.gltf-0.off")));
-  EXPECT_FALSE(fs::exists(path("out0/mine/house.gltf")));
-  folder_.write("mine/arm/meshes/tip.dae", collada("<unit meter=\"0.01\"/>", collada_node));
-  folder_.write("mine/arm/arm.urdf",
-                "<robot name=\"arm\"><link name=\"base\"><collision><geometry><mesh "
-                "filename='package://arm/meshes/tip.dae'/></geometry></collision></link></robot>");
-  const std::string arm = path("mine/arm/arm.urdf");
-  EXPECT_EQ(import_alone(arm, "mesh of a model; unit 0.01 m, y up"), hash_of(arm));
-  // One scene imports what another has as a mesh.
-  folder_.write("mine/inner.toml", "[[body]]\nmesh = \"house.gltf\"\n");
-  folder_.write("mine/both.toml",
-                "import = [\"inner.toml\", \"house.gltf\", \"arm/arm.urdf\"]\nmeshes = \"hull\"\n");
-  const std::string both = path("mine/both.toml");
-  EXPECT_EQ(import_alone(both, "model: "), hash_of(both));
-  folder_.write("mine/bad.toml", "import = \"house.gltf\"\n[[body]]\nmesh = \"house.gltf\"\n");
-  const Ran ran = run_program("scene import " + path("mine/bad.toml") + " --out " + path("bad"));
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.text, HasSubstr("names this model as a mesh and imports it"));
-  EXPECT_FALSE(fs::exists(path("bad")));
-}
-
-TEST_F(Import, AModelIsAskedAsASceneAndAsAMesh) {
-  using namespace model_files;
-  folder_.write("two.glb", glb(gltf(R"({"name": "a", "mesh": 0, "children": [1]},
-{"name": "b", "mesh": 0, "translation": [0.5, 0, 0]})",
-                                    "")));
-  const std::string file = path("two.glb");
-  EXPECT_THAT(run_program("scene describe " + file).text, HasSubstr("2 bodies"));
-  EXPECT_EQ(run_program("scene draw " + file + " --out " + path("two.png")).status, 0);
-  EXPECT_THAT(run_program("query " + file + " --bodies 0 1 --task intersect").text,
-              HasSubstr("overlapping"));
-  folder_.write("points.csv", "x,y,z\n5,0,0\n");
-  EXPECT_THAT(run_program("query " + path("points.csv") + " --in " + file + " --with exact").text,
-              HasSubstr("3.5"));
-  folder_.write("bad.glb", "glTF");
-  const Ran ran = run_program("scene describe " + path("bad.glb"));
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.text, HasSubstr("bad.glb: Assimp cannot read it"));
 }
 
 TEST_F(Import, TheHomeIsThatOfTheDataSets) {

@@ -21,7 +21,7 @@ Model read(const std::string& name, const std::string& content) {
   return read_model(folder.write(name, content));
 }
 
-std::string fault_of(const std::string& name, const std::string& content) {
+std::string fault_in(const std::string& name, const std::string& content) {
   const TemporaryFolder folder;
   const auto file = folder.write(name, content);
   return folder.without_path(input_fault([&] { read_model(file); }));
@@ -220,7 +220,7 @@ TEST(Models, SayWhatIsLeftOut) {
   const Model model = read("a.gltf", text);
   EXPECT_EQ(model.left_out.words(), "6 lines, 4 points, 1 animation, 1 camera");
   EXPECT_THAT(whole_mesh("a.gltf", model).triangles, SizeIs(4));
-  EXPECT_EQ(fault_of("a.gltf", gltf(R"({"mesh": 0})", data_uri(buffer), "0", "", "1")),
+  EXPECT_EQ(fault_in("a.gltf", gltf(R"({"mesh": 0})", data_uri(buffer), "0", "", "1")),
             "a.gltf: no node has triangles (it has 6 lines); expected some");
 }
 
@@ -270,21 +270,21 @@ TEST(Models, AreKnownByTheirEndings) {
 
 TEST(Models, AnExtensionThatChangesTheMeshIsRefused) {
   EXPECT_EQ(
-      fault_of("a.gltf", gltf(R"({"mesh": 0})", data_uri(buffer), "0",
+      fault_in("a.gltf", gltf(R"({"mesh": 0})", data_uri(buffer), "0",
                               R"(, "extensionsRequired": ["EXT_meshopt_compression"])")),
       "a.gltf: Assimp cannot read it: the file needs the extension EXT_meshopt_compression of "
       "glTF, which is not read");
-  EXPECT_THAT(fault_of("a.glb", glb(gltf(R"({"mesh": 0})", "", "0",
+  EXPECT_THAT(fault_in("a.glb", glb(gltf(R"({"mesh": 0})", "", "0",
                                          R"(, "extensionsUsed": ["EXT_mesh_gpu_instancing"])"))),
               HasSubstr("needs the extension EXT_mesh_gpu_instancing"));
-  EXPECT_EQ(fault_of("a.gltf", gltf(R"({"mesh": 0})", data_uri(buffer), "0",
+  EXPECT_EQ(fault_in("a.gltf", gltf(R"({"mesh": 0})", data_uri(buffer), "0",
                                     R"(, "extensionsRequired": ["KHR_materials_unlit"],
 "extensionsUsed": ["KHR_materials_unlit"])")),
             "");
   // Assimp would take these for floats.
   std::string text = gltf(R"({"mesh": 0})");
   text.replace(text.find("5126"), 4, "5122");
-  EXPECT_THAT(fault_of("a.gltf", text), HasSubstr("needs the extension KHR_mesh_quantization"));
+  EXPECT_THAT(fault_in("a.gltf", text), HasSubstr("needs the extension KHR_mesh_quantization"));
 }
 
 }  // namespace
