@@ -245,7 +245,8 @@ void refuse_extensions(const std::string& file) {
   };
   for (const std::string& name : names("extensionsRequired")) {
     if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_") &&
-        !name.starts_with("EXT_texture_") && name != "KHR_lights_punctual") {
+        !name.starts_with("EXT_texture_") && name != "KHR_lights_punctual" &&
+        name != "KHR_draco_mesh_compression") {
       refuse(name);
     }
   }

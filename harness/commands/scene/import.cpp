@@ -8,6 +8,7 @@
 #include <memory>
 #include <regex>
 #include <set>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -50,8 +51,15 @@ std::string ending_of(const fs::path& file) {
 }
 
 std::string opening_of(const fs::path& file) {
-  constexpr std::size_t most = 4096;
-  return files::read_text(file).substr(0, most);
+  std::string opening(4096, '\0');
+  base::InputFile input(file);
+  std::size_t size = 0;
+  while (const std::size_t got =
+             size < opening.size() ? input.read(std::span(opening).subspan(size)) : 0) {
+    size += got;
+  }
+  opening.resize(size);
+  return opening;
 }
 
 // The key of a scene that takes a file.

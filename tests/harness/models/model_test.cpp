@@ -268,6 +268,23 @@ TEST(Models, AreKnownByTheirEndings) {
   }
 }
 
+// The tetrahedron by draco_encoder, without quantization.
+TEST(Models, MeshesThatDracoPackedAreRead) {
+  const std::string packed =
+      "RFJBQ08CAgEBAAAABAQAAwAAAS8BARAB/"
+      "wAAAQAJAwAAAAAAAAAAAAAAAABAQAAAAAAAAABAAAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAA==";
+  const Model model =
+      read("a.gltf",
+           R"({"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"],
+"extensionsUsed": ["KHR_draco_mesh_compression"], "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions": {"KHR_draco_mesh_compression":
+{"bufferView": 0, "attributes": {"POSITION": 0}}}}]}], "accessors": [{"componentType": 5126, "count": 4, "type": "VEC3"},
+{"componentType": 5123, "count": 12, "type": "SCALAR"}], "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 82}],
+"buffers": [{"byteLength": 82, "uri": "data:application/octet-stream;base64,)" +
+               packed + "\"}]}");
+  EXPECT_NEAR(volume_of(whole_mesh("a.gltf", model)), 1, 1e-6);
+}
+
 TEST(Models, AnExtensionThatChangesTheMeshIsRefused) {
   EXPECT_EQ(
       fault_in("a.gltf", gltf(R"({"mesh": 0})", data_uri(buffer), "0",
