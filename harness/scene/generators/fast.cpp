@@ -235,9 +235,9 @@ Generated make_robot(GeneratorInput& input) {
       body.shape = 1 + static_cast<std::uint32_t>(i % 3);
       body.moving = false;
       body.pose.rotation = places.rotation();
-      body.pose.translation = base_place + arm *
-                                               places.uniform(nearest_obstacle, farthest_obstacle) *
-                                               places.on_sphere();
+      const Vec3d direction = places.on_sphere();
+      const double distance = places.uniform(nearest_obstacle, farthest_obstacle);
+      body.pose.translation = base_place + arm * distance * direction;
       scene.bodies.push_back(body);
     }
   }
