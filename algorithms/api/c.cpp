@@ -54,8 +54,7 @@ int guarded(const Function& function) noexcept {
 
 template <class... Pointer>
 void check_there(Pointer... pointers) {
-  if (((pointers == nullptr) || ...))
-    throw v1::Error("found NULL; expected a pointer to something");
+  if ((!pointers || ...)) throw v1::Error("found NULL; expected a pointer to something");
 }
 
 v1::Vec3 vec(const double* numbers) { return {numbers[0], numbers[1], numbers[2]}; }

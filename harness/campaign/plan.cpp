@@ -29,7 +29,7 @@ constexpr std::size_t tried_frames = 2;  // one is built, one an update
 constexpr std::size_t tried_pairs = 48;  // the number of each set, from all frames
 
 // Allocations are counted in two more passes over the same frames or pairs.
-constexpr double passes = 3;
+constexpr double trial_passes = 3;
 
 // A block's check with findings of its own and without files. It counts no allocations, which would take a process more
 // for each contestant.
@@ -54,7 +54,7 @@ double price_of(const RunContext& block, const BroadPhaseEntry& entry,
   for (const record::RawRow& row : trial.findings.rows()) {
     if (row.seconds >= 0) solving += row.seconds;
   }
-  return once + (passes - 1) * solving + (times - 1) * (verifying + passes * solving);
+  return once + (trial_passes - 1) * solving + (times - 1) * (verifying + trial_passes * solving);
 }
 
 double price_of_broad(const RunContext& context, const measure::BlockInput& input,
@@ -116,7 +116,8 @@ double price_of_narrow(const RunContext& context, const measure::BlockInput& inp
   NarrowCheck(trial.context, input, some).run();
   seconds += watch.seconds();
   for (const record::RawRow& row : trial.findings.rows()) {
-    if (row.seconds >= 0) seconds += (passes - 1 + passes * more.at(set_key(row))) * row.seconds;
+    if (row.seconds >= 0)
+      seconds += (trial_passes - 1 + trial_passes * more.at(set_key(row))) * row.seconds;
   }
   return seconds;
 }
