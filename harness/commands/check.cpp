@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "algorithms/registry.h"
 #include "harness/base/error.h"
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
@@ -25,6 +27,7 @@
 #include "harness/commands/shared_options.h"
 #include "harness/files/text_file.h"
 #include "harness/kinds/pair/pair_request.h"
+#include "harness/kinds/selection.h"
 #include "harness/modules/modules.h"
 #include "harness/peer/peer.h"
 #include "harness/record/row.h"
@@ -89,10 +92,31 @@ int verify(const std::string& file) {
   return good ? exit_done : exit_measured_wrong;
 }
 
+// Throws InputError for a kind of the list about which a peer is not asked by lines of text.
+void expect_lines(const std::string& kinds_asked, const std::string& writer) {
+  if (kinds_asked.empty()) return;
+  std::vector<std::string_view> written;
+  for (const kinds::Kind* kind : kinds::checked_kinds()) {
+    const auto algorithms = kind->algorithms();
+    if (std::ranges::find(algorithms, writer, &AlgorithmInfo::name) != algorithms.end()) {
+      written.push_back(kind->name());
+    }
+  }
+  for (const std::string& name : kinds::split_names(kinds_asked)) {
+    const auto words = registry::kind_named(name);
+    if (std::ranges::find(written, words ? words->word : name) == written.end()) {
+      throw base::InputError(
+          fmt::format("--export: no file of questions is about the kind '{}'; expected some of {}",
+                      name, fmt::join(written, ", ")));
+    }
+  }
+}
+
 // Draws the cases, and writes the questions that a peer would be asked.
 int write_questions(const CheckOptions& options, check::CheckMode mode) {
   files::check_output(options.written);
   const peer::QuestionWriter writer;
+  expect_lines(options.selection.kinds, writer.name());
   const check::CheckRequest request = request_of(options, mode, writer.name());
   const check::CheckReport report(request);
   base::Progress progress(static_cast<std::size_t>(request.job_count()));

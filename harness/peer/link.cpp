@@ -29,6 +29,16 @@ double number_of(const files::JsonNode& node) {
   return node.number();
 }
 
+constexpr std::array all_pair_answers = {Answer::separated, Answer::touching, Answer::overlapping,
+                                         Answer::unknown};
+
+// The answer that a number alone gives.
+Answer answer_of(double distance) {
+  if (std::isnan(distance)) return Answer::unknown;
+  if (distance == 0) return Answer::touching;
+  return distance > 0 ? Answer::separated : Answer::overlapping;
+}
+
 }  // namespace
 
 std::string id_of(std::string_view text) {
@@ -112,6 +122,22 @@ Status known_status(const files::JsonNode& answer) {
   constexpr std::array statuses = {Status::ok,       Status::not_converged, Status::degenerate,
                                    Status::capacity, Status::unsupported,   Status::not_reported};
   return known_name<Status>(answer, "status", statuses).value_or(Status::not_reported);
+}
+
+Outcome known_outcome(const files::JsonNode& answer) {
+  Outcome outcome;
+  outcome.status = known_status(answer);
+  outcome.distance = known_number(answer, "distance");
+  outcome.answer =
+      known_name<Answer>(answer, "answer", all_pair_answers).value_or(answer_of(outcome.distance));
+  outcome.lower = known_number(answer, "lower");
+  outcome.upper = known_number(answer, "upper");
+  outcome.normal = known_vector(answer, "normal");
+  outcome.witness_a = known_vector(answer, "a");
+  outcome.witness_b = known_vector(answer, "b");
+  outcome.iterations = known_count(answer, "iterations");
+  outcome.support_calls = known_count(answer, "support_calls");
+  return outcome;
 }
 
 }  // namespace touchstone::peer

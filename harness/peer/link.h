@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/core/status.h"
+#include "algorithms/core/outcome.h"
 #include "harness/files/json_line.h"
 
 namespace touchstone::peer {
@@ -61,6 +61,9 @@ Vec3d known_vector(const files::JsonNode& answer, const char* key);
 std::int32_t known_count(const files::JsonNode& answer, const char* key);  // -1 if it is not known
 // One of those that an algorithm may have; not_reported if it is not known.
 Status known_status(const files::JsonNode& answer);
+
+// Of a pair of bodies. Without `answer` the sign of `distance` decides.
+Outcome known_outcome(const files::JsonNode& answer);
 
 // The value with this name; nothing if the key is missing or null.
 template <class Value>

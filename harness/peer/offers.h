@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "algorithms/algorithm_info.h"
+#include "algorithms/ccd.h"
+#include "algorithms/concave_phase.h"
 #include "algorithms/core/outcome.h"
 #include "algorithms/core/shape.h"
 #include "harness/peer/link.h"
@@ -17,6 +19,9 @@
 namespace touchstone::peer {
 
 inline constexpr std::array all_scalars = {Precision::float64, Precision::float32};
+inline constexpr std::array all_concave_tasks = {ConcaveTask::intersect, ConcaveTask::distance,
+                                                 ConcaveTask::contacts};
+inline constexpr std::array all_feature_pairs = {FeaturePair::vertex_face, FeaturePair::edge_edge};
 
 // The values of a list of names; `fallback` if it is missing. Throws base::InputError for a name that is no value's.
 template <class Value>
@@ -69,6 +74,10 @@ void add_ray(const AlgorithmInfo& info, const files::JsonNode& offer,
              const std::shared_ptr<Link>& link);
 void add_point(const AlgorithmInfo& info, const files::JsonNode& offer,
                const std::shared_ptr<Link>& link);
+void add_mesh(const AlgorithmInfo& info, const files::JsonNode& offer,
+              const std::shared_ptr<Link>& link);
+void add_feature(const AlgorithmInfo& info, const files::JsonNode& offer,
+                 const std::shared_ptr<Link>& link);
 // Frames of boxes go packed, so nothing is added for a link that takes none.
 void add_box(const AlgorithmInfo& info, const files::JsonNode& offer,
              const std::shared_ptr<Link>& link);

@@ -1,38 +1,10 @@
 // A narrow phase that asks a peer.
-#include <cmath>
-
 #include "algorithms/registry.h"
 #include "harness/files/case_json.h"
 #include "harness/peer/offers.h"
 
 namespace touchstone::peer {
 namespace {
-
-constexpr std::array all_pair_answers = {Answer::separated, Answer::touching, Answer::overlapping,
-                                         Answer::unknown};
-
-// The answer that a number alone gives.
-Answer answer_of(double distance) {
-  if (std::isnan(distance)) return Answer::unknown;
-  if (distance == 0) return Answer::touching;
-  return distance > 0 ? Answer::separated : Answer::overlapping;
-}
-
-Outcome pair_outcome_of(const files::JsonNode& answer) {
-  Outcome outcome;
-  outcome.status = known_status(answer);
-  outcome.distance = known_number(answer, "distance");
-  outcome.answer =
-      known_name<Answer>(answer, "answer", all_pair_answers).value_or(answer_of(outcome.distance));
-  outcome.lower = known_number(answer, "lower");
-  outcome.upper = known_number(answer, "upper");
-  outcome.normal = known_vector(answer, "normal");
-  outcome.witness_a = known_vector(answer, "a");
-  outcome.witness_b = known_vector(answer, "b");
-  outcome.iterations = known_count(answer, "iterations");
-  outcome.support_calls = known_count(answer, "support_calls");
-  return outcome;
-}
 
 class PairPeer final : public NarrowPhase {
  public:
@@ -65,9 +37,7 @@ class PairPeer final : public NarrowPhase {
           question["b"] = body(batch.pairs.second[i]);
           return question;
         },
-        [&](std::size_t i, const files::JsonNode& answer) {
-          outcomes[i] = pair_outcome_of(answer);
-        });
+        [&](std::size_t i, const files::JsonNode& answer) { outcomes[i] = known_outcome(answer); });
   }
 
  private:

@@ -204,7 +204,16 @@ constexpr auto kinds = std::to_array<std::pair<std::string_view, Add>>({{"pair",
                                                                         {"cast", add_cast},
                                                                         {"ray", add_ray},
                                                                         {"point", add_point},
+                                                                        {"mesh", add_mesh},
+                                                                        {"feature", add_feature},
                                                                         {"box", add_box}});
+
+std::string names_of_kinds() {
+  std::string names;
+  for (const auto& [name, add] : kinds)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  return names;
+}
 
 constexpr std::string_view of_versions =
     "0123456789.+_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-";
@@ -260,7 +269,7 @@ std::string add_entries(const std::string& source, std::int64_t line, const file
   for (const auto& [name, offer] : offers.value().items()) {
     const auto* const at = std::ranges::find(kinds, name, &std::pair<std::string_view, Add>::first);
     if (at == kinds.end()) {
-      offers.fail(fmt::format("found \"{}\"; expected some of pair, cast, ray, point, box", name));
+      offers.fail(fmt::format("found \"{}\"; expected some of {}", name, names_of_kinds()));
     }
     const files::JsonNode node = offers.at(name.c_str(), "");
     at->second(info, node.as_object("an object, such as {\"tasks\":[...]}"), link);
@@ -285,6 +294,8 @@ files::OrderedJson all_offers() {
             {"approach", true}}},
           {"ray", {{"tasks", {"closest", "any"}}, {"scalars", scalars}}},
           {"point", {{"tasks", {"closest", "side"}}, {"scalars", {"double"}}}},
+          {"mesh", {{"tasks", names(all_concave_tasks)}, {"scalars", scalars}}},
+          {"feature", {{"tasks", names(all_feature_pairs)}, {"separations", true}}},
           {"box", {{"tasks", {"pairs"}}}}};
 }
 

@@ -31,7 +31,7 @@ std::string add(const std::string& named, std::int64_t repeat = 0);
 // with the line.
 std::string add_answers(const std::filesystem::path& file);
 
-// An entry of every kind, which keeps the questions that it is asked and calls them unsupported.
+// An entry of every kind that is asked by lines of text, which keeps the questions that it is asked and calls them unsupported.
 class QuestionWriter {
  public:
   QuestionWriter();  // adds it to the registry; throws std::system_error if there is no temporary file

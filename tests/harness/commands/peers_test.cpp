@@ -197,6 +197,56 @@ TEST_F(Peers, AnswerRaysPointsAndCasts) {
   EXPECT_GT(others["rays-vertex"] + others["rays-in-plane"], 0) << "rounding decides there";
 }
 
+TEST_F(Peers, AnswerMeshesAndFeatures) {
+  const std::string further =
+      "python3 " + std::string(project_folder) + "/tests/harness/peer/further_kinds.py";
+  const std::string same =
+      "check --kind mesh,feature --regimes triangles-generic,triangles-edges-1e-3,"
+      "triangles-coplanar,vertex-face-inside,vertex-face-random,edge-edge-inside --scalar double "
+      "--cases 15 ";
+  ran = run_program(same + "--with none --peer '" + further + "' --out " + path("live"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  const auto rows = [&](const std::string& run) {
+    return read_rows(path(run + "/families.csv"),
+                     {"family", "algorithm", "form", "cases", "contacts", "right", "gave_up"});
+  };
+  struct Count {
+    int cases = 0, contacts = 0, right = 0, gave_up = 0;
+  };
+  std::map<std::string, Count> counts;
+  for (const auto& row : rows("live")) {
+    if (row[2] != "as drawn") continue;
+    Count& count = counts[row[0]];
+    count.cases += std::stoi(row[3]);
+    count.contacts += std::stoi(row[4]);
+    count.right += std::stoi(row[5]);
+    count.gave_up += std::stoi(row[6]);
+  }
+  for (const std::string family : {"triangles-generic", "triangles-edges-1e-3"}) {
+    EXPECT_EQ(counts[family].right, 30) << "of both tasks";
+    EXPECT_GT(counts[family].contacts, 0);
+    EXPECT_LT(counts[family].contacts, 30);
+  }
+  EXPECT_GT(counts["triangles-coplanar"].gave_up, 0);
+  EXPECT_GT(counts["vertex-face-inside"].right, 10);
+  EXPECT_GT(counts["vertex-face-random"].right, 10);
+  EXPECT_EQ(counts["edge-edge-inside"].right, 0) << "not offered";
+
+  ran = run_program(same + "--export " + path("questions.jsonl"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  const std::string elsewhere =
+      further + " < " + path("questions.jsonl") + " > " + path("answers.jsonl");
+  ASSERT_EQ(run_shell(elsewhere).status, 0);
+  ran = run_program(same + "--with none --answers " + path("answers.jsonl") + " --out " +
+                    path("elsewhere"));
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_EQ(rows("live"), rows("elsewhere"));
+
+  ran = run_program("check --kind mesh,scene-ray --export " + path("none.jsonl"));
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.text, HasSubstr("'scene-ray'; expected some of pair, "));
+}
+
 TEST_F(Peers, FindThePairsOfPackedBoxes) {
   const std::string boxes = "--peer 'python3 " + example("boxes.py") + "'";
   ran = run_program("check --kind box --with none " + boxes + " --out " + path("out"));
