@@ -29,6 +29,7 @@
 #include "harness/files/ray_certificates.h"
 #include "harness/geometry/mesh.h"
 #include "harness/models/model.h"
+#include "harness/peer/link.h"
 #include "harness/record/machine.h"
 #include "harness/scene/box_frames.h"
 #include "harness/scene/scene.h"
@@ -115,6 +116,15 @@ void read_model_stream(const fs::path& file) {
   models::whole_mesh(file.string(), model);
 }
 
+void read_answers(const fs::path& file) {
+  files::for_each_json_line(file, "answer", [](const files::JsonNode& answer) {
+    peer::known_outcome(answer);
+    peer::known_count(answer, "triangle");
+    for (const char* key : {"toi", "t", "u", "v"}) peer::known_number(answer, key);
+    for (const char* key : {"closest", "point"}) peer::known_vector(answer, key);
+  });
+}
+
 void read_lines(const fs::path& file) {
   files::LineReader lines(file);
   while (lines.next()) {
@@ -191,6 +201,7 @@ const std::vector<Reader>& list() {
       {"sets", "sets.toml", [](const fs::path& file) { cells::read_cells(file); }},
       {"raw", "raw.csv", [](const fs::path& file) { stats::read_results(file); }},
       {"facts", "machine.csv", [](const fs::path& file) { record::read_facts(file); }},
+      {"answers", "answers.jsonl", read_answers},
       {"zstd", "rows.csv.zst", read_lines},
   };
   return all;
