@@ -24,7 +24,8 @@ class Random {
     return v.normalized();
   }
   Mat3d rotation() {
-    return Eigen::AngleAxisd(uniform(0, std::numbers::pi), direction()).toRotationMatrix();
+    const Vec3d axis = direction();
+    return Eigen::AngleAxisd(uniform(0, std::numbers::pi), axis).toRotationMatrix();
   }
   Vec3d vector(double reach) {
     return {uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)};

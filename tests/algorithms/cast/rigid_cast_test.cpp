@@ -202,7 +202,9 @@ TEST_P(RigidCast, AgreesWithTheOracle) {
     c.a = random_shape(kinds[static_cast<std::size_t>(random.below(4))], random);
     c.b = random_shape(kinds[static_cast<std::size_t>(random.below(4))], random);
     c.pose_a.rotation = random.rotation();
-    c.pose_b = {random.rotation(), random.uniform(2, 4) * random.direction()};
+    c.pose_b.rotation = random.rotation();
+    const Vec3d towards = random.direction();
+    c.pose_b.translation = random.uniform(2, 4) * towards;
     c.motion_a = {random.vector(1), 3 * random.direction()};
     c.motion_b = {random.vector(2) - 0.5 * c.pose_b.translation, random.vector(2)};
     c.what = "number " + std::to_string(i);

@@ -35,7 +35,8 @@ Points ball(int count, unsigned seed) {
   std::uniform_real_distribution<double> u(-1, 1);
   Points points;
   while (std::ssize(points) < count) {
-    const Vec3d p(u(random), u(random), u(random));
+    const double z = u(random), y = u(random), x = u(random);
+    const Vec3d p(x, y, z);
     if (p.norm() <= 1) points.push_back(p);
   }
   return points;
@@ -204,7 +205,8 @@ TEST(ConvexHull, RandomSetsAtEveryProportion) {
   std::uniform_int_distribution<int> count(4, 40);
   int valid = 0;
   for (int i = 0; i < 300; ++i) {
-    const Vec3d extents(1, std::pow(10, thin(random)), std::pow(10, thin(random)));
+    const double z = std::pow(10, thin(random)), y = std::pow(10, thin(random));
+    const Vec3d extents(1, y, z);
     const double scale = std::pow(10, power(random));
     const auto hull = make_hull(mapped(
         ball(count(random), static_cast<unsigned>(i)),
@@ -225,8 +227,9 @@ TEST(ConvexHull, LatticePointsWithManyCoplanar) {
     Points points;
     const int count = 4 + i % 12;
     for (int k = 0; k < count; ++k) {
-      points.emplace_back(coordinate(random), coordinate(random),
-                          i % 9 == 0 ? 2 : coordinate(random));
+      const int z = i % 9 == 0 ? 2 : coordinate(random);
+      const int y = coordinate(random), x = coordinate(random);
+      points.emplace_back(x, y, z);
     }
     const auto hull = make_hull(points);
     if (hull->dimension < 3) {
@@ -289,7 +292,8 @@ TEST(ConvexHull, ReducedHullKeepsWhatIsExtreme) {
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 200; ++i) {
-    const Vec3d d(normal(random), normal(random), normal(random));
+    const double z = normal(random), y = normal(random), x = normal(random);
+    const Vec3d d(x, y, z);
     double all = -1e9, kept = -1e9;
     for (const Vec3d& p : points) all = std::max(all, d.dot(p));
     for (const Vec3d& p : reduced->vertices) kept = std::max(kept, d.dot(p));

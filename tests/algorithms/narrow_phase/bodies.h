@@ -119,13 +119,13 @@ inline double uniform(Random& random, double low, double high) {
 }
 inline Vec3d random_direction(Random& random) {
   std::normal_distribution<double> normal;
-  return Vec3d(normal(random), normal(random), normal(random)).normalized();
+  const double z = normal(random), y = normal(random), x = normal(random);
+  return Vec3d(x, y, z).normalized();
 }
 inline Mat3d random_rotation(Random& random) {
   std::normal_distribution<double> normal;
-  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
-      .normalized()
-      .toRotationMatrix();
+  const double z = normal(random), y = normal(random), x = normal(random), w = normal(random);
+  return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
 }
 inline Shape random_hull(Random& random, int points) {
   std::vector<Vec3d> on_sphere;

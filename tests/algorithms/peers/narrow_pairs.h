@@ -45,13 +45,14 @@ struct Feature {
 
 inline Mat3d random_rotation(std::mt19937_64& random) {
   std::normal_distribution<double> gauss;
-  Eigen::Quaterniond q(gauss(random), gauss(random), gauss(random), gauss(random));
-  return q.normalized().toRotationMatrix();
+  const double z = gauss(random), y = gauss(random), x = gauss(random), w = gauss(random);
+  return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
 }
 
 inline Vec3d random_unit(std::mt19937_64& random) {
   std::normal_distribution<double> gauss;
-  return Vec3d(gauss(random), gauss(random), gauss(random)).normalized();
+  const double z = gauss(random), y = gauss(random), x = gauss(random);
+  return Vec3d(x, y, z).normalized();
 }
 
 // Edges and neighbours from vertices and faces.
