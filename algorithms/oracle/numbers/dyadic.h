@@ -24,7 +24,7 @@ struct Dyadic {
   }
 };
 
-// Exact for finite numbers of up to 64 bits.
+// Exact for finite numbers of up to 64 bits. 0 for NaN, which whoever checks a proof refuses afterwards.
 template <class Scalar>
 Dyadic dyadic(Scalar x) {
   static_assert(std::numeric_limits<Scalar>::radix == 2 &&
@@ -38,6 +38,7 @@ Dyadic dyadic(Scalar x) {
     exponent = static_cast<int>(stored >> 52 & 0x7ffu) - 1075;
   } else {
     const Scalar fraction = std::frexp(x < 0 ? -x : x, &exponent);
+    if (!(fraction < 1)) return {};
     bits = static_cast<std::uint64_t>(std::ldexp(fraction, 64));
     exponent -= 64;
   }
