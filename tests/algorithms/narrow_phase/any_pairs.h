@@ -53,8 +53,7 @@ inline std::vector<AnyPair> make_any_pairs(int count) {
                      .truth = {},
                      .name = std::string(to_string(kind_a)) + "-" + std::string(to_string(kind_b)) +
                              " " + std::to_string(k)};
-        pair.pose_b.translation =
-            pair.pose_a.translation + uniform(random, 0, 2) * random_direction(random);
+        pair.pose_b.translation = pair.pose_a.translation + random_vector(random, 0, 2);
         const oracle::Solid solid_a(pair.a), solid_b(pair.b);
         const auto measure = [&] {
           return oracle.measure({solid_a, pair.pose_a}, {solid_b, pair.pose_b});

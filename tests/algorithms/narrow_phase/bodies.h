@@ -122,6 +122,11 @@ inline Vec3d random_direction(Random& random) {
   const double z = normal(random), y = normal(random), x = normal(random);
   return Vec3d(x, y, z).normalized();
 }
+// A vector of a length from `low` to `high`.
+inline Vec3d random_vector(Random& random, double low, double high) {
+  const Vec3d direction = random_direction(random);
+  return uniform(random, low, high) * direction;
+}
 inline Mat3d random_rotation(Random& random) {
   std::normal_distribution<double> normal;
   const double z = normal(random), y = normal(random), x = normal(random), w = normal(random);

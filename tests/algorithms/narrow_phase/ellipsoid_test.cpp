@@ -111,8 +111,7 @@ class EllipsoidPairs : public testing::TestWithParam<Precision> {
 Pair place(Random& random, const Shape& a, const Shape& b, double near, double far) {
   Pair pair{a, b, {random_rotation(random), Vec3d::Zero()}, {random_rotation(random), {}}};
   pair.pose_a.translation = random_direction(random);
-  pair.pose_b.translation =
-      pair.pose_a.translation + uniform(random, near, far) * random_direction(random);
+  pair.pose_b.translation = pair.pose_a.translation + random_vector(random, near, far);
   return pair;
 }
 

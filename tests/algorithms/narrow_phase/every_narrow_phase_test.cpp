@@ -307,7 +307,7 @@ TEST_P(EveryNarrowPhase, AgreesWithTheBruteForce) {
       const Shape a = random_polytope(random, kind_a), b = random_polytope(random, kind_b);
       const Pose pose_a{random_rotation(random), random_direction(random)};
       const Pose pose_b{random_rotation(random),
-                        pose_a.translation + uniform(random, 0.5, 2.2) * random_direction(random)};
+                        pose_a.translation + random_vector(random, 0.5, 2.2)};
       const double truth = brute_force::signed_distance(a, pose_a, b, pose_b);
       for (const Task task : all_tasks) {
         if (!offers(*subject.entry, kind_a, kind_b, task)) continue;

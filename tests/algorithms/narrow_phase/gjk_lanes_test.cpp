@@ -207,9 +207,8 @@ void expect_few_left() {
         if (sort == Sort::scaled && kinds.b == ShapeKind::hull) continue;
         const Shape a = draw(kinds.a), b = draw(kinds.b);
         const Pose pose_a{random_rotation(random), far * random_direction(random)};
-        const Pose pose_b{
-            random_rotation(random),
-            pose_a.translation + scale * uniform(random, 0.3, 2.2) * random_direction(random)};
+        const Pose pose_b{random_rotation(random),
+                          pose_a.translation + scale * random_vector(random, 0.3, 2.2)};
         pairs.add(a, pose_a, b, pose_b);
       }
       if (pairs.size() == 0) continue;
@@ -259,7 +258,7 @@ TEST(GjkLanes, AnswerWhatDoesNotFit) {
     const auto [b, aside_b] = draw();
     const Mat3d turn_a = random_rotation(random), turn_b = random_rotation(random);
     pairs.add(a, {turn_a, -(turn_a * aside_a)}, b,
-              {turn_b, uniform(random, 1, 2.2) * random_direction(random) - turn_b * aside_b});
+              {turn_b, random_vector(random, 1, 2.2) - turn_b * aside_b});
   }
   for (const Precision scalar : scalars) {
     const std::vector<Outcome> outcomes =

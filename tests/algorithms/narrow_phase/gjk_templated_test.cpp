@@ -59,7 +59,7 @@ void add_pair(Random& random, Kinds kinds, PoseSort sort, Pairs& pairs) {
   const Shape a = draw(random, kinds.a, flat), b = draw(random, kinds.b, flat);
   Pose pose_a{random_rotation(random), random_direction(random)};
   Pose pose_b{random_rotation(random), Vec3d::Zero()};
-  Vec3d offset = uniform(random, 0, flat ? 1 : 2.2) * random_direction(random);
+  Vec3d offset = random_vector(random, 0, flat ? 1 : 2.2);
   if (sort == PoseSort::aligned) {
     pose_a = {Mat3d::Identity(), Vec3d::Zero()};
     const double angle = M_PI / 2 * static_cast<double>(random() % 3);

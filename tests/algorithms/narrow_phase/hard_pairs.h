@@ -109,7 +109,7 @@ inline void add_pair(Random& random, oracle::Oracle& oracle, Kinds kinds, Sort s
         pose_a.rotation * turn(angle, random() % 2 == 0 ? axis : random_direction(random));
     if (random() % 3 == 0) pose_b.rotation = pose_b.rotation * turn(M_PI / 2, axis);
   }
-  Vec3d offset = uniform(random, 0.2, 2.2) * random_direction(random);
+  Vec3d offset = random_vector(random, 0.2, 2.2);
   if (sort == Sort::stacked) {
     if (kinds.a == kinds.b && random() % 2 == 0) b = a;
     const double half = a.kind == ShapeKind::hull ? 0.6 : a.half_extents.x();

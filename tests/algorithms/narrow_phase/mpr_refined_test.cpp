@@ -136,12 +136,11 @@ TEST_P(MprRefined, HoldsItsBoundsAtTheExtremes) {
         default: return box_as_hull(size, size, size * thin);
       }
     };
-    const Vec3d place = uniform(random, 0, 2) * size * random_direction(random);
+    const Vec3d place = size * random_vector(random, 0, 2);
     const bool coincident = random() % 4 == 0;
     const Body a{draw(), {random_rotation(random), place}};
-    const Vec3d offset = coincident
-                             ? Vec3d::Zero().eval()
-                             : (uniform(random, 0, 1.5) * size * random_direction(random)).eval();
+    const Vec3d offset =
+        coincident ? Vec3d::Zero().eval() : (size * random_vector(random, 0, 1.5)).eval();
     const Body b{draw(), {random_rotation(random), place + offset}};
     SCOPED_TRACE(k);
     const double truth = brute_force::signed_distance(a.shape, a.pose, b.shape, b.pose);
@@ -166,7 +165,7 @@ TEST_P(MprRefined, LivesWithBodiesWithoutVolume) {
     };
     const Body a{draw(), {random_rotation(random), Vec3d::Zero()}};
     const Body b{k % 2 == 0 ? any_box(random) : draw(),
-                 {random_rotation(random), uniform(random, 0, 1) * random_direction(random)}};
+                 {random_rotation(random), random_vector(random, 0, 1)}};
     const Outcome outcome = ask_named("mpr-refined", GetParam(), a, b);
     const Outcome plain = ask_named("mpr", GetParam(), a, b);
     common += outcome.answer == Answer::overlapping;
@@ -197,8 +196,7 @@ TEST_P(MprRefined, HoldsItsBoundsForRoundBodies) {
       return shape;
     };
     const Body a{draw(), {random_rotation(random), Vec3d::Zero()}};
-    const Body b{draw(),
-                 {random_rotation(random), uniform(random, 0.1, 1.4) * random_direction(random)}};
+    const Body b{draw(), {random_rotation(random), random_vector(random, 0.1, 1.4)}};
     const double truth = ask_named("exact", Precision::float64, a, b).distance;
     SCOPED_TRACE(k);
     // The exact answer to this task has nothing but the verdict where they are apart.

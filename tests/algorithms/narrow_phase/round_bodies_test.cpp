@@ -185,8 +185,7 @@ TEST(RoundBodies, HaveExactDepthsAndDistances) {
                   b = random_shape(random, kinds.b, false);
       const Pose pose_a{random_rotation(random), random_direction(random)};
       pairs.add(a, pose_a, b,
-                {random_rotation(random),
-                 pose_a.translation + uniform(random, 0.2, 2.5) * random_direction(random)});
+                {random_rotation(random), pose_a.translation + random_vector(random, 0.2, 2.5)});
     }
     const std::vector<oracle::Measure> truths = measured(pairs);
     for (const Task task : {Task::distance, Task::penetration}) {

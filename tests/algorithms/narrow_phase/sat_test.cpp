@@ -207,8 +207,7 @@ TEST(Sat, AgreesFarFromTheOrigin) {
     a.hull = moved;
     const Mat3d r = random_rotation(random);
     const Pose pose_a{r, far},
-        pose_b{random_rotation(random),
-               far + r * baked + uniform(random, 0, 2) * random_direction(random)};
+        pose_b{random_rotation(random), far + r * baked + random_vector(random, 0, 2)};
     check(a, pose_a, b, pose_b, 1e-10, 1e-5F, tally, 2e-11);
   }
   expect_both(tally);
@@ -309,7 +308,7 @@ TEST(Sat, WitnessPointsLieOnBothBodies) {
     const Shape b = k % 3 == 0 ? unit_box(random) : small_hull(random);
     const Pose pose_a{k % 5 == 0 ? Mat3d::Identity() : random_rotation(random), Vec3d::Zero()};
     const Pose pose_b{k % 5 == 0 ? Mat3d::Identity() : random_rotation(random),
-                      uniform(random, 0, 1.5) * random_direction(random)};
+                      random_vector(random, 0, 1.5)};
     for (const char* name : {"sat", "closed-form"}) {
       const NarrowPhaseEntry& entry = *registry::find<NarrowPhaseEntry>(name);
       if (!offers(entry, a.kind, b.kind, Task::penetration)) continue;
@@ -410,7 +409,7 @@ TEST(Sat, TakesMatricesLiterally) {
       return m;
     };
     const Pose pose_a{coarse(), Vec3d::Zero()};
-    const Pose pose_b{coarse(), uniform(random, 0.5, 2) * random_direction(random)};
+    const Pose pose_b{coarse(), random_vector(random, 0.5, 2)};
     check(a, pose_a, b, pose_b, 1e-13, 1e-5F, tally);
   }
   expect_both(tally);

@@ -163,7 +163,7 @@ TEST_P(Textbook, SaysThatItGaveUpAtTheCapOfIterations) {
   for (int k = 0; k < 200; ++k) {
     const Shape a = any_hull(random), b = any_hull(random);
     const Pose pose_a{random_rotation(random), Vec3d::Zero()};
-    const Pose pose_b{random_rotation(random), uniform(random, 0, 2.2) * random_direction(random)};
+    const Pose pose_b{random_rotation(random), random_vector(random, 0, 2.2)};
     for (const Task task : entry().tasks) {
       const Outcome outcome = ask(entry(), settings, task, a, pose_a, b, pose_b);
       const Outcome free =
