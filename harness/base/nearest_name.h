@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,16 +31,23 @@ inline std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+// The known name that was meant, if one is so near that it is a slip; a known name is none.
+inline std::optional<std::string_view> meant_name(std::string_view name,
+                                                  std::span<const std::string_view> known) {
+  if (name.size() > 40) return std::nullopt;
+  const auto near =
+      std::ranges::min_element(known, {}, [&](std::string_view one) { return edits(one, name); });
+  if (near == known.end() || *near == name) return std::nullopt;
+  const bool is_slip = edits(*near, name) <= std::min<std::size_t>(2, name.size() / 3);
+  return is_slip ? std::optional(*near) : std::nullopt;
+}
+
 // Returns "no WHAT is called 'NAME'; did you mean X?", or a list of all that are known if none is near.
 inline std::string unknown_name(std::string_view what, std::string_view name,
                                 std::span<const std::string_view> known) {
   const std::string start = fmt::format("no {} is called '{}'; ", what, name);
-  if (name.size() <= 40) {
-    const auto near =
-        std::ranges::min_element(known, {}, [&](std::string_view one) { return edits(one, name); });
-    if (near != known.end() && edits(*near, name) <= std::min<std::size_t>(2, name.size() / 3)) {
-      return start + fmt::format("did you mean {}?", *near);
-    }
+  if (const auto meant = meant_name(name, known)) {
+    return start + fmt::format("did you mean {}?", *meant);
   }
   return start + fmt::format("expected some of {}", fmt::join(known, ", "));
 }

@@ -82,6 +82,7 @@ std::string key_of(const fs::path& file) {
     return is_log ? "poses" : "configurations";
   }
   if (geometry::is_mesh_file(file)) return "mesh";
+  if (ending == ".xacro") return "import";  // where it is said how to expand it
   throw base::InputError(file.string(), 0,
                          "unknown kind of file; expected .toml, .json, .urdf, .srdf, .aabbs, "
                          ".yaml, .csv, a mesh (.obj, .off, .stl, .ply) or a model (.glb, .gltf, "

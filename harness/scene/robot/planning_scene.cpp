@@ -97,8 +97,12 @@ class PlanningSceneReader {
       top.fail(
           fmt::format("no key of a planning scene; expected some of {}", fmt::join(keys, ", ")));
     }
+    top.warn_of_slips({"world", "robot_state", "allowed_collision_matrix", "link_padding",
+                       "link_scale", "name", "robot_model_name", "fixed_frame_transforms",
+                       "object_colors", "is_diff"});
     if (const auto state = top.find("robot_state")) read_state(*state);
     if (const auto world = top.find("world")) {
+      world->warn_of_slips({"collision_objects", "octomap"});
       for (const YamlNode& object : world->elements("collision_objects")) read_object(object);
       const auto around = world->find("octomap");
       const auto map = around ? around->find("octomap") : around;
@@ -123,6 +127,8 @@ class PlanningSceneReader {
 
  private:
   void read_state(const YamlNode& state) {
+    state.warn_of_slips(
+        {"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"});
     for (const YamlNode& object : state.elements("attached_collision_objects")) {
       object.fail("an attached object; expected objects of the world alone");
     }
@@ -135,12 +141,16 @@ class PlanningSceneReader {
   }
 
   void read_object(const YamlNode& object) {
+    object.warn_of_slips({"id", "header", "pose", "type", "primitives", "primitive_poses", "meshes",
+                          "mesh_poses", "planes", "plane_poses", "subframe_names", "subframe_poses",
+                          "operation"});
     const std::string name = object.required("id").text();
     for (const YamlNode& plane : object.elements("planes")) {
       plane.fail("a plane; expected primitives and meshes");
     }
     std::string frame;
     if (const auto header = object.find("header")) {
+      header->warn_of_slips({"frame_id", "seq", "stamp"});
       if (const auto given = header->find("frame_id")) frame = given->text();
     }
     if (frame.empty()) frame = "world";

@@ -8,7 +8,9 @@
 
 #include "harness/base/error.h"
 #include "harness/base/input_file.h"
+#include "harness/base/nearest_name.h"
 #include "harness/base/reproducible_math.h"
+#include "harness/base/warning.h"
 
 namespace touchstone::scene {
 namespace {
@@ -27,6 +29,19 @@ std::optional<Number> parsed(const std::string& text) {
 
 void YamlNode::fail(const std::string& message) const {
   throw base::InputError(file_, line(), message);
+}
+
+void YamlNode::warn_of_slips(std::initializer_list<std::string_view> keys) const {
+  if (!node_.IsMap()) return;
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar()) continue;
+    const std::string& key = entry.first.Scalar();
+    if (const auto meant = base::meant_name(key, {keys.begin(), keys.size()})) {
+      base::warn(file_, entry.first.Mark().line + 1,
+                 fmt::format("the key \"{}\" is ignored; perhaps \"{}\" was meant",
+                             base::shortened(key), *meant));
+    }
+  }
 }
 
 std::optional<YamlNode> YamlNode::find(const char* key) const {
@@ -96,6 +111,7 @@ std::vector<std::string> YamlNode::texts(const char* key) const {
 }
 
 Pose YamlNode::pose() const {
+  warn_of_slips({"position", "orientation", "translation", "rotation"});
   Pose pose;
   const auto either = [&](const char* key, const char* other) {
     const std::optional<YamlNode> found = find(key);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ class YamlNode {
 
   bool is_list() const { return node_.IsSequence(); }
 
+  // Warns of each key of a map that is nearly one of these, since what was meant is not read.
+  void warn_of_slips(std::initializer_list<std::string_view> keys) const;
   // What a map has for a key, where it is neither absent nor empty. Throws if this is no map.
   std::optional<YamlNode> find(const char* key) const;
   YamlNode required(const char* key) const;

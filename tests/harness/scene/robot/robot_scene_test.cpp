@@ -220,6 +220,25 @@ TEST_F(RobotScenes, ReadProblemsOfMotionPlanning) {
   EXPECT_FALSE(filter.asks({3, 4})) << "the world against itself";
 }
 
+TEST_F(RobotScenes, WarnOfKeysOfProblemsThatAreNearlyKnown) {
+  const auto warning_of = [&](const std::string& old, const std::string& now) {
+    std::string text = problem_scene;
+    text.replace(text.find(old), old.size(), now);
+    folder_.write("problem.yaml", text);
+    testing::internal::CaptureStderr();
+    load("obstacles = \"problem.yaml\"\nconfigurations = {random = 1}\n");
+    return folder_.without_path(testing::internal::GetCapturedStderr());
+  };
+  EXPECT_EQ(warning_of("world:", "world:"), "");
+  EXPECT_EQ(warning_of("robot_state:", "comment: none\nrobot_state:"), "") << "of somebody's own";
+  EXPECT_THAT(warning_of("collision_objects:", "collision_object:"),
+              HasSubstr(": warning: the key \"collision_object\" is ignored; perhaps "
+                        "\"collision_objects\" was meant\n"));
+  EXPECT_THAT(warning_of("orientation: [0, 0.7", "orientaton: [0, 0.7"),
+              HasSubstr("perhaps \"orientation\" was meant"));
+  EXPECT_THAT(warning_of("frame_id:", "frameid:"), HasSubstr("perhaps \"frame_id\" was meant"));
+}
+
 TEST_F(RobotScenes, RefuseMacros) {
   EXPECT_THAT(
       input_fault([&] { scene::load_scene(folder_.write("crane.urdf.xacro", crane_urdf)); }),
