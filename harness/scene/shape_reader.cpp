@@ -121,7 +121,8 @@ MeshUse ShapeReader::use_of(files::TomlTable& table, MeshUse fallback) const {
 
 ShapeReader::MeshKey ShapeReader::mesh_key(files::TomlTable& table) const {
   const Vec3d scale = read_scale(table);
-  const std::filesystem::path file = existing_file(table, "mesh", "a mesh (.obj, .off, .stl, .ply) or a model");
+  const std::filesystem::path file =
+      existing_file(table, "mesh", "a mesh (.obj, .off, .stl, .ply) or a model");
   return {file.lexically_normal().string(), scale.x(), scale.y(), scale.z(), use_of(table)};
 }
 
