@@ -61,7 +61,7 @@ TOUCHSTONE_NESTED(scene, record, "SCENE --out BOXES.aabbs", "Write a scene's box
 TOUCHSTONE_NESTED(scene, represent, "SCENE --out ERRORS.csv", "Fit proxies, from ball to mesh, to the bodies, and measure their errors")
 TOUCHSTONE_NESTED(scene, describe, "SCENE", "Print bodies, kinds, sizes and overlaps, which pairs rest, slide or are free, and their gaps")
 TOUCHSTONE_NESTED(scene, simulate, "SCENE --seconds S --out LOG.csv", "Let the bodies fall and collide by Bullet's dynamics, and write their poses")
-TOUCHSTONE_NESTED(scene, import, "FILE... --out FOLDER", "Make a folder of a robot, log, recording or scene, with all files that it needs")
+TOUCHSTONE_NESTED(scene, import, "FILE... --out FOLDER", "Make a folder of a robot, model, log, recording or scene, with all files that it needs")
 TOUCHSTONE_NESTED(scene, hash, "SCENE", "Print the hash of a scene: the same bodies and motion have the same")
 TOUCHSTONE_COMMAND(touchstone_more, robot, "ROBOT.urdf", "Scenes and clusters", "Say which links of a robot touch, and what its SRDF file hides")
 TOUCHSTONE_COMMAND(touchstone_more, shards, "plan|status|merge ...", "Scenes and clusters", "Cut work into shards for many machines, and join them")
