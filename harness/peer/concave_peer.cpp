@@ -1,5 +1,6 @@
 // A concave phase that asks a peer. Both bodies are in each question, as in a case.
 #include "algorithms/registry.h"
+#include "harness/base/input_file.h"
 #include "harness/files/concave_cases.h"
 #include "harness/peer/offers.h"
 

@@ -1,4 +1,6 @@
 // Continuous collision of features that asks a peer.
+#include <cmath>
+
 #include "algorithms/registry.h"
 #include "harness/peer/offers.h"
 
