@@ -72,7 +72,8 @@ PortalTally sweep(Precision scalar, const MakeShape& make, int count, double spr
   PortalTally tally;
   for (int k = 0; k < drawn(count, 100) && !testing::Test::HasFailure(); ++k) {
     const Body a{make(random), {random_rotation(random), random_direction(random)}};
-    const Vec3d offset = std::cbrt(uniform(random, 0, 1)) * spread * random_direction(random);
+    const Vec3d direction = random_direction(random);
+    const Vec3d offset = std::cbrt(uniform(random, 0, 1)) * spread * direction;
     const Body b{make(random), {random_rotation(random), a.pose.translation + offset}};
     SCOPED_TRACE(k);
     check(scalar, a, b, brute_force::signed_distance(a.shape, a.pose, b.shape, b.pose), margin,
