@@ -223,7 +223,7 @@ TEST_F(ModelScenes, AMeshIsAllTrianglesInTheFramesOfTheFile) {
   }
 }
 
-// As RViz and MoveIt read them: in metres, and not turned.
+// As RViz reads them: in metres, and not turned.
 TEST_F(ModelScenes, RobotsTakeModelsForMeshes) {
   folder_.write("link.dae",
                 collada("<unit meter=\"0.001\"/><up_axis>Y_UP</up_axis>", collada_node));
