@@ -127,7 +127,7 @@ def feature(question):
         normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]))
         inside = [dot(cross(minus(corners[(i + 1) % 3], corners[i]), minus(vertex, corners[i])), normal) for i in range(3)]
         if min(inside) >= 0:
-            return {"toi": low, "lower": 0, "upper": 1, "status": "ok"}
+            return {"toi": high, "lower": low, "upper": high, "status": "ok"}
     return {"answer": "miss", "status": "ok"}
 
 
