@@ -1,4 +1,4 @@
-# Writes the bill of materials of the programs (SPDX 2.3, JSON): the libraries that they were linked with or has compiled in,
+# Writes the bill of materials of the programs (SPDX 2.3, JSON): the libraries that they were linked with or have compiled in,
 # and the npm packages inside the page, each with its version and licence.
 #
 #   cmake -D PROGRAM=FILES -D VERSION=V -D DATE=YYYY-MM-DD -D SOURCE=FOLDER -D CGAL=ON|OFF -D OUT=FILE -P make_bill.cmake

@@ -6,14 +6,11 @@
 namespace touchstone::peer {
 namespace {
 
-constexpr std::array all_cast_answers = {CastAnswer::hit, CastAnswer::miss, CastAnswer::unknown};
-
 CastOutcome cast_outcome_of(const files::JsonNode& answer) {
   CastOutcome outcome;
   outcome.status = known_status(answer);
   outcome.toi = known_number(answer, "toi");
-  outcome.answer = known_name<CastAnswer>(answer, "answer", all_cast_answers)
-                       .value_or(std::isnan(outcome.toi) ? CastAnswer::unknown : CastAnswer::hit);
+  outcome.answer = known_impact<CastAnswer>(answer, outcome.toi);
   outcome.lower = known_number(answer, "lower");
   outcome.upper = known_number(answer, "upper");
   outcome.normal = known_vector(answer, "normal");

@@ -1,13 +1,9 @@
 // Continuous collision of features that asks a peer.
-#include <cmath>
-
 #include "algorithms/registry.h"
 #include "harness/peer/offers.h"
 
 namespace touchstone::peer {
 namespace {
-
-constexpr std::array all_feature_answers = {CcdAnswer::hit, CcdAnswer::miss, CcdAnswer::unknown};
 
 files::OrderedJson places(const std::array<Vec3d, 4>& vertices) {
   files::OrderedJson list = files::OrderedJson::array();
@@ -19,8 +15,7 @@ CcdOutcome ccd_outcome_of(const files::JsonNode& answer) {
   CcdOutcome outcome;
   outcome.status = known_status(answer);
   outcome.toi = known_number(answer, "toi");
-  outcome.answer = known_name<CcdAnswer>(answer, "answer", all_feature_answers)
-                       .value_or(std::isnan(outcome.toi) ? CcdAnswer::unknown : CcdAnswer::hit);
+  outcome.answer = known_impact<CcdAnswer>(answer, outcome.toi);
   outcome.free_before = known_number(answer, "lower");
   outcome.contact_by = known_number(answer, "upper");
   outcome.iterations = known_count(answer, "iterations");

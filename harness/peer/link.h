@@ -1,6 +1,8 @@
 // Questions to a peer and its answers, each a JSON object in a line.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -77,6 +79,14 @@ std::optional<Value> known_name(const files::JsonNode& answer, const char* key,
     names += fmt::format("{}{}", names.empty() ? "" : ", ", to_string(value));
   }
   node.fail(fmt::format("found {}; expected one of {}", node.found(), names));
+}
+
+// The answer about a time of impact: by its name, or a hit if there is a time, or unknown.
+template <class Answer>
+Answer known_impact(const files::JsonNode& answer, double toi) {
+  constexpr std::array all = {Answer::hit, Answer::miss, Answer::unknown};
+  const auto named = known_name<Answer>(answer, "answer", all);
+  return named.value_or(std::isnan(toi) ? Answer::unknown : Answer::hit);
 }
 
 }  // namespace touchstone::peer

@@ -453,9 +453,8 @@ void add_scene_import(Arguments command) {
   command
       .texts("FILE", options->files,
              "A scene (.toml, .json of rigid-ipc, .urdf, .aabbs, a model such as .glb or .dae), or "
-             "parts "
-             "of one: a log of poses or "
-             "configurations (.csv), an SRDF file, a planning scene or request (.yaml), meshes")
+             "parts of one: a log of poses or configurations (.csv), an SRDF file, a planning "
+             "scene or request (.yaml), meshes")
       .required()
       .is_read();
   command.text("--out", options->out, "The folder to make").required();

@@ -7,6 +7,7 @@ import { small_png } from "./small_png.mjs";
 const [report, folder, only] = process.argv.slice(2);
 if (!folder) throw new Error("usage: node test/views.mjs REPORT.html FOLDER [NAME]");
 const most_bytes = 60_000; // of a picture
+const least_bytes = 2_000; // less is a figure that is not drawn yet
 const most_bytes_of_all = 500_000;
 
 async function open_pair(page) {
@@ -81,19 +82,24 @@ for (const { name, element, width = 1040, height = Infinity, dark = false, act }
   await act?.(page);
   const shown = page.locator(element).first();
   await shown.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(500);
-  const box = await shown.evaluate((each) => {
-    const { left, top, width, height } = each.getBoundingClientRect();
-    return { x: left + scrollX, y: top + scrollY, width, height };
-  });
-  const clip = {
-    x: box.x - 12,
-    y: box.y - 4,
-    width: box.width + 24,
-    height: Math.min(box.height, height) + 8,
+  // The parts of the page above may still grow, and move it.
+  const picture = async () => {
+    await page.waitForTimeout(500);
+    const box = await shown.evaluate((each) => {
+      const { left, top, width, height } = each.getBoundingClientRect();
+      return { x: left + scrollX, y: top + scrollY, width, height };
+    });
+    const clip = {
+      x: box.x - 12,
+      y: box.y - 4,
+      width: box.width + 24,
+      height: Math.min(box.height, height) + 8,
+    };
+    return smaller(await page.screenshot({ fullPage: true, clip }));
   };
-  const screenshot = await page.screenshot({ fullPage: true, clip });
-  const png = await smaller(screenshot);
+  let png = await picture();
+  for (let tries = 0; png.length < least_bytes && tries < 20; ++tries) png = await picture();
+  if (png.length < least_bytes) throw new Error(`${name} stays empty`);
   const path = join(folder, `${name}.png`);
   await writeFile(path, png);
   bytes_of_all += png.length;

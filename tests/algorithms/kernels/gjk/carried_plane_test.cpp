@@ -92,7 +92,7 @@ TEST(CarriedPlane, PartsOnlyWhatIsApart) {
   EXPECT_GT(unmoved, all * 4 / 5);
   EXPECT_GT(still, all);
   EXPECT_GT(lost, all / 2);
-  EXPECT_GT(met, all / 20);
+  EXPECT_GT(met, all / 10);
 }
 
 TEST(CarriedPlane, CarriesADirectionAlone) {
